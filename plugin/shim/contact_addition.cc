@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contact added to the matrix of a host with a linear solver of its own: the
 // pressures of each point are condensed, and leave springs and forces.
-#include "contact_implementation.h"
+#include "contact_problem.h"
 
 #include <algorithm>
 
@@ -90,7 +90,7 @@ namespace abut
   void ContactAssembler<dim>::add_to_sparsity(
       dealii::DynamicSparsityPattern &pattern) const
   {
-    const Implementation &i = *implementation;
+    const auto &i = *implementation;
     i.check_rows("add_to_sparsity()");
     const solve::PointOperator &rows = i.coefficients;
     std::vector<global_dof_index> columns, all;
@@ -118,7 +118,7 @@ namespace abut
   void ContactAssembler<dim>::add(const la::MatrixTarget &matrix,
                                   const la::MutableVectorView &given_residual)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     i.check_rows("add()");
     la::Vector &residual =
         i.host.mutable_vector("add()", "residual", given_residual);

@@ -4,7 +4,7 @@
 #include <abut/dealii/contact_loop.h>
 #include <abut/dealii/versions.h>
 
-#include "contact_implementation.h"
+#include "contact_problem.h"
 #include "host_cells.h"
 
 #include <algorithm>
@@ -48,7 +48,8 @@ namespace abut
   template <int dim>
   ContactAssembler<dim>::ContactAssembler(const MPI_Comm communicator)
       : implementation(
-          (check_mpi(), std::make_unique<Implementation>(communicator)))
+          (check_mpi(),
+           std::make_unique<shim::ContactProblem<dim>>(communicator)))
   {
   }
 
@@ -110,7 +111,7 @@ namespace abut
   void
   ContactAssembler<dim>::set_pairs(const std::vector<ContactPair<dim>> &pairs)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     if (i.surfaces != nullptr && !i.source_is_outdated
         && differ_in_gaps(i.pairs, pairs))
       i.has_new_gaps = true;
@@ -153,7 +154,7 @@ namespace abut
       const dealii::DoFHandler<dim> &dof_handler,
       const dealii::AffineConstraints<double> &constraints)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     namespace MPI = dealii::Utilities::MPI;
     AssertThrow(
         MPI::n_mpi_processes(i.communicator)
@@ -190,7 +191,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::detect(const la::VectorView &given_displacement)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     i.host.check_mesh("detect()");
     const la::Vector &displacement =
         i.host.vector("detect()", "displacement", given_displacement);
@@ -223,10 +224,9 @@ namespace abut
   bool ContactAssembler<dim>::search_farther(
       const la::VectorView &given_displacement)
   {
-    Implementation &i = *implementation;
-    i.check_rows("search_farther()");
+    auto &i = *implementation;
     const la::Vector &displacement =
-        i.host.vector("search_farther()", "displacement", given_displacement);
+        i.given("search_farther()", "displacement", given_displacement);
     const auto n_rows = [&]
     {
       return dealii::Utilities::MPI::sum(double(i.coefficients.n_rows()),
@@ -248,10 +248,9 @@ namespace abut
   ContactAssembler<dim>::linearise(const la::VectorView &given_displacement,
                                    const double linear_tolerance)
   {
-    Implementation &i = *implementation;
-    i.check_rows("linearise()");
+    auto &i = *implementation;
     const la::Vector &displacement =
-        i.host.vector("linearise()", "displacement", given_displacement);
+        i.given("linearise()", "displacement", given_displacement);
     AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
                                             "elastic bodies: do not call "
                                             "linearise() with it."));
@@ -270,10 +269,9 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::follow(const la::VectorView &given_displacement)
   {
-    Implementation &i = *implementation;
-    i.check_rows("follow()");
+    auto &i = *implementation;
     const la::Vector &displacement =
-        i.host.vector("follow()", "displacement", given_displacement);
+        i.given("follow()", "displacement", given_displacement);
     if (i.moves())
       i.follow(displacement);
   }
@@ -284,25 +282,14 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::set_pressure(const la::VectorView &pressure)
-  {
-    const Implementation &i = *implementation;
-    i.host.check_mesh("set_pressure()");
-    implementation->start.give_field(
-        i.host.vector("set_pressure()", "pressure", pressure));
-  }
-
-  template <int dim>
   void
   ContactAssembler<dim>::relax(const Tangent &tangent,
                                const la::VectorView &given_residual,
                                const unsigned int n_sweeps,
                                const la::MutableVectorView &given_displacement)
   {
-    Implementation &i = *implementation;
-    i.check_rows("relax()");
-    const la::Vector &residual =
-        i.host.vector("relax()", "residual", given_residual);
+    auto &i = *implementation;
+    const la::Vector &residual = i.given("relax()", "residual", given_residual);
     la::Vector &displacement =
         i.host.mutable_vector("relax()", "displacement", given_displacement);
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
@@ -323,7 +310,7 @@ namespace abut
                                const la::VectorView &given_residual,
                                const la::MutableVectorView &given_increment)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     i.check_rows("solve()");
     const solve::Stiffness matrix = i.host.stiffness("solve()", tangent);
     const la::Vector &residual =
@@ -364,10 +351,9 @@ namespace abut
   template <int dim>
   bool ContactAssembler<dim>::update(const la::VectorView &given_displacement)
   {
-    Implementation &i = *implementation;
-    i.check_rows("update()");
+    auto &i = *implementation;
     const la::Vector &displacement =
-        i.host.vector("update()", "displacement", given_displacement);
+        i.given("update()", "displacement", given_displacement);
     AssertThrow(i.is_started,
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
@@ -391,28 +377,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::add_contact_forces(
-      const la::MutableVectorView &given_forces) const
-  {
-    const Implementation &i = *implementation;
-    i.check_rows("add_contact_forces()");
-    la::Vector &forces =
-        i.host.mutable_vector("add_contact_forces()", "force", given_forces);
-    AssertThrow(!i.is_nitsche(), ExcMessage("The forces of Nitsche's method "
-                                            "are not those of its pressures "
-                                            "alone."));
-    i.add_forces(forces);
-  }
-
-  template <int dim>
   LinearReport ContactAssembler<dim>::solve_linearised(
       const Tangent &given_tangent, const la::VectorView &given_residual,
       const la::MutableVectorView &given_step)
   {
-    Implementation &i = *implementation;
-    i.check_rows("solve_linearised()");
+    auto &i = *implementation;
     const la::Vector &residual =
-        i.host.vector("solve_linearised()", "residual", given_residual);
+        i.given("solve_linearised()", "residual", given_residual);
     la::Vector &step =
         i.host.mutable_vector("solve_linearised()", "step", given_step);
     const Tangent tangent =
@@ -440,17 +411,16 @@ namespace abut
       const la::VectorView &given_displacement,
       const la::MutableVectorView &given_forces) const
   {
-    const Implementation &i = *implementation;
-    i.check_rows("evaluate()");
+    const auto &i = *implementation;
     const la::Vector &displacement =
-        i.host.vector("evaluate()", "displacement", given_displacement);
+        i.given("evaluate()", "displacement", given_displacement);
     la::Vector &forces =
         i.host.mutable_vector("evaluate()", "force", given_forces);
     AssertThrow(i.is_started, ExcMessage("Call solve() before evaluate()."));
     if (i.moves())
       return implementation->evaluate_moved(displacement, forces);
     forces = 0.;
-    add_contact_forces(forces);
+    i.add_forces_of_law(forces);
     std::vector<double> gap(i.coefficients.n_rows());
     i.coefficients.gap(displacement, gap.data());
     i.slip_reference.subtract_from(gap);
@@ -466,7 +436,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::set_reference_stiffness(const Tangent &tangent)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     i.host.check_mesh("set_reference_stiffness()");
     i.host.set_reference("set_reference_stiffness()", tangent);
     i.law_compliance = la::Vector();
@@ -485,10 +455,9 @@ namespace abut
   double ContactAssembler<dim>::length_scale(
       const la::VectorView &given_displacement) const
   {
-    const Implementation &i = *implementation;
-    i.check_rows("length_scale()");
+    const auto &i = *implementation;
     const la::Vector &displacement =
-        i.host.vector("length_scale()", "displacement", given_displacement);
+        i.given("length_scale()", "displacement", given_displacement);
     const double length = i.length_scale(displacement);
     // Obstacles may come to bodies that rest.
     const bool may_come = i.surfaces != nullptr
@@ -499,106 +468,49 @@ namespace abut
     return length == 0. && may_come ? i.surfaces->set().facet_size() : length;
   }
 
-  template <int dim>
-  dealii::IndexSet ContactAssembler<dim>::candidate_nodes() const
+  template <int dim> IterationReport ContactAssembler<dim>::iteration() const
   {
-    const Implementation &i = *implementation;
-    i.check_rows("candidate_nodes()");
-    const dealii::IndexSet &owned = i.host.owned();
-    la::Vector count(owned, i.communicator);
-    const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-    i.coefficients.add_counts(all.data(), count);
-    dealii::IndexSet result(owned.size());
-    for (int k = 0; k < la::n_owned(count); ++k)
-      if (la::data(count)[k] > 0.)
-        result.add_index(owned.nth_index_in_set(k));
-    result.compress();
-    return result;
-  }
-
-  template <int dim> abut_reason ContactAssembler<dim>::reason() const
-  {
-    return implementation->is_started ? implementation->request.reason
-                                      : ABUT_REASON_NONE;
-  }
-
-  template <int dim> std::string ContactAssembler<dim>::explanation() const
-  {
-    const std::string seen =
-        abut_context_message(implementation->context.get());
-    const bool failed =
-        reason() != ABUT_REASON_NONE && reason() != ABUT_REASON_CONVERGED;
-    const abut_failure_entry *known = abut_failure_get(failure());
+    const auto &i = *implementation;
+    IterationReport result;
+    result.progress = i.progress();
+    result.reason = i.reason();
+    result.failure = abut_reason_failure(result.reason, i.method.options.law,
+                                         &result.progress);
+    const std::string seen = abut_context_message(i.context.get());
+    const bool failed = result.reason != ABUT_REASON_NONE
+                        && result.reason != ABUT_REASON_CONVERGED;
     // Remedies for other methods that do not contract are of no use with
     // friction.
-    return (known != nullptr && known->failure == ABUT_FAILURE_STICK_SLIP
-                ? std::string(known->name) + ": " + known->remedy
-                : std::string(abut_reason_text(reason())))
-           + (failed && !seen.empty() ? " (" + seen + ")" : "");
-  }
-
-  template <int dim> abut_failure ContactAssembler<dim>::failure() const
-  {
-    const abut_progress present = progress();
-    return abut_reason_failure(reason(), implementation->method.options.law,
-                               &present);
-  }
-
-  template <int dim> abut_progress ContactAssembler<dim>::progress() const
-  {
-    abut_progress progress = {};
-    // A strategy whose law fails is not started any more.
-    if (implementation->is_started)
-      if (const abut_status status =
-              abut_strategy_progress(implementation->strategy.get(), &progress);
-          status != ABUT_WRONG_ORDER)
-        shim::check(implementation->context.get(), status);
-    return progress;
-  }
-
-  template <int dim> global_dof_index ContactAssembler<dim>::n_rows() const
-  {
-    return implementation->n_rows;
-  }
-
-  template <int dim> unsigned int ContactAssembler<dim>::n_own_rows() const
-  {
-    return implementation->coefficients.n_rows();
-  }
-
-  template <int dim> global_dof_index ContactAssembler<dim>::n_active() const
-  {
-    return static_cast<global_dof_index>(progress().n_active);
-  }
-
-  template <int dim>
-  CommunicationReport ContactAssembler<dim>::communication() const
-  {
-    const Implementation &i = *implementation;
-    CommunicationReport result = i.sent_before;
-    result.messages += i.history.sent().messages;
-    result.bytes += i.history.sent().bytes;
-    if (i.exchange == nullptr)
-      return result;
-    const CommunicationReport now = i.exchange->communication();
-    result.messages += now.messages;
-    result.bytes += now.bytes;
-    result.gathered_bytes += now.gathered_bytes;
-    result.own_facets = now.own_facets;
-    result.ghost_facets = now.ghost_facets;
+    const abut_failure_entry *known = abut_failure_get(result.failure);
+    result.explanation =
+        (known != nullptr && known->failure == ABUT_FAILURE_STICK_SLIP
+             ? std::string(known->name) + ": " + known->remedy
+             : std::string(abut_reason_text(result.reason)))
+        + (failed && !seen.empty() ? " (" + seen + ")" : "");
     return result;
   }
 
   template <int dim>
-  const LinearReport &ContactAssembler<dim>::linear_report() const
+  const ContactResults<dim> &ContactAssembler<dim>::results() const
   {
-    return implementation->report;
+    return *implementation->results;
+  }
+
+  template <int dim>
+  const ContactChecks<dim> &ContactAssembler<dim>::checks() const
+  {
+    return *implementation->checks;
+  }
+
+  template <int dim> ContactState &ContactAssembler<dim>::state()
+  {
+    return *implementation->state;
   }
 
   template <int dim>
   Tangent ContactAssembler<dim>::copy_of(const Tangent &tangent) const
   {
-    const Implementation &i = *implementation;
+    const auto &i = *implementation;
     i.host.check_mesh("copy_of()");
     return tangent.other() == nullptr ? tangent
                                       : i.host.stiffness("copy_of()", tangent);
@@ -607,7 +519,7 @@ namespace abut
   template <int dim>
   la::Vector ContactAssembler<dim>::copy_of(const la::VectorView &vector) const
   {
-    const Implementation &i = *implementation;
+    const auto &i = *implementation;
     i.host.check_mesh("copy_of()");
     return i.host.vector("copy_of()", "vector", vector);
   }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Quality of an answer: measures first, then the faults that they are a sign
 // of.
-#include "contact_implementation.h"
+#include "contact_problem.h"
 
 #include "deformation.h"
 #include "obstacle_in_bodies.h"
 #include "obstacle_width.h"
-#include "solve/unsupported_bodies.h"
 
 #include <abut/dealii/coded.h>
 
@@ -14,7 +13,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace abut
+namespace abut::shim
 {
   namespace MPI = dealii::Utilities::MPI;
 
@@ -361,9 +360,8 @@ namespace abut
     }
 
     void judge_separated_rows(const std::string &pair,
-                              const shim::SeparatedRows &apart,
-                              const bool follows, const Scale &scale,
-                              Findings &findings)
+                              const SeparatedRows &apart, const bool follows,
+                              const Scale &scale, Findings &findings)
     {
       if (apart.force > 0.)
         findings.add(
@@ -379,8 +377,8 @@ namespace abut
                              "motions smaller."));
     }
 
-    void judge_width(const std::string &pair,
-                     const shim::ObstacleWidth &narrowest, Findings &findings)
+    void judge_width(const std::string &pair, const ObstacleWidth &narrowest,
+                     Findings &findings)
     {
       if (narrowest.width < 2. * narrowest.facet)
         findings.add(ABUT_FAILURE_UNSEEN, false,
@@ -391,11 +389,10 @@ namespace abut
      * depth there is no more than that at the surface if that stops the
      * obstacle. */
     template <int dim>
-    void judge_inside(const std::string &pair,
-                      const shim::ObstacleInBodies<dim> &found,
-                      const shim::ObstacleWidth &passed, const double facet,
-                      const double strain, const Scale &scale,
-                      Findings &findings)
+    void
+    judge_inside(const std::string &pair, const ObstacleInBodies<dim> &found,
+                 const ObstacleWidth &passed, const double facet,
+                 const double strain, const Scale &scale, Findings &findings)
     {
       // Cells that are compressed by all of their length are inside out: what
       // is behind a surface that touches is no place of the body.
@@ -420,10 +417,10 @@ namespace abut
       double missed = 0., peak = 0., any = 0.;
 
       /** The deepest of the cells or of the facets of a @p pair. Collective. */
-      Deepest(const std::vector<shim::FacetPenetration> &facet_penetrations,
+      Deepest(const std::vector<FacetPenetration> &facet_penetrations,
               const std::size_t pair, const MPI_Comm communicator)
       {
-        for (const shim::FacetPenetration &found : facet_penetrations)
+        for (const FacetPenetration &found : facet_penetrations)
         {
           if (found.pair != pair)
             continue;
@@ -436,77 +433,57 @@ namespace abut
           *value = MPI::max(*value, communicator);
       }
     };
+    /** Penetration that the law is meant to have, length. */
+    template <int dim> double soft_on_purpose(const ContactProblem<dim> &i)
+    {
+      // A user's own law is as soft as it is meant to be.
+      if (i.method.user_law != nullptr)
+        return INFINITY;
+      return abut_law_has_penalty(i.method.options.law)
+                 ? i.method.options.allowed_penetration
+                       * i.method.options.length_scale
+                 : 0.;
+    }
+
+    template <int dim>
+    void examine_membrane(const ContactProblem<dim> &i,
+                          const la::Vector &displacement,
+                          ContactExamination &result)
+    {
+      const Deepest deepest(
+          i.source->facet_penetrations(displacement, i.row_states().data()), 0,
+          i.communicator);
+      result.deformation = i.deformation(displacement);
+      result.missed_depth = deepest.missed;
+      double cell = 0.;
+      for (const auto &some : i.host.dof_handler().active_cell_iterators())
+        cell = std::max(cell, some->diameter());
+      const Scale scale{result.deformation, result.deformation,
+                        round_off_of_places * MPI::max(cell, i.communicator)};
+      const bool missed = scale.is_more(deepest.missed, missed_part);
+      const double between = deepest.any - i.results->measures().penetration;
+      const double peak = std::min(deepest.peak, between);
+      const bool hidden = scale.is_more(peak, useless);
+      if (missed || scale.is_more(between, useless))
+        Findings(result).add(
+            ABUT_FAILURE_UNSEEN, missed || hidden,
+            "The obstacle is above the membrane between nodes, by up to "
+                + scale.compared(deepest.any)
+                + (hidden ? ", of which no node knows " + number(peak)
+                          : std::string())
+                + (missed ? ", and cells that it is in by up to "
+                                + number(deepest.missed)
+                                + " have no contact at all"
+                          : std::string())
+                + ": refine the mesh there.");
+    }
   } // namespace
 
   template <int dim>
-  std::vector<shim::FacetPenetration>
-  ContactAssembler<dim>::Implementation::find_facet_penetrations(
-      const la::Vector &displacement)
-  {
-    const std::vector<std::uint8_t> states = row_states();
-    return source->facet_penetrations(displacement, states.data());
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::soft_on_purpose() const
-  {
-    // A user's own law is as soft as it is meant to be.
-    if (method.user_law != nullptr)
-      return INFINITY;
-    return abut_law_has_penalty(method.options.law)
-               ? method.options.allowed_penetration
-                     * method.options.length_scale
-               : 0.;
-  }
-
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::deformation(
-      const la::Vector &displacement) const
-  {
-    return surfaces == nullptr ? displacement.linfty_norm()
-                               : shim::deformation(near_null_space(),
-                                                   displacement, communicator);
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::examine_membrane(
-      const la::Vector &displacement, const double penetration,
-      ContactExamination &result)
-  {
-    const Deepest deepest(find_facet_penetrations(displacement), 0,
-                          communicator);
-    result.deformation = deformation(displacement);
-    result.missed_depth = deepest.missed;
-    double cell = 0.;
-    for (const auto &some : host.dof_handler().active_cell_iterators())
-      cell = std::max(cell, some->diameter());
-    const Scale scale{result.deformation, result.deformation,
-                      round_off_of_places * MPI::max(cell, communicator)};
-    const bool missed = scale.is_more(deepest.missed, missed_part);
-    const double between = deepest.any - penetration;
-    const double peak = std::min(deepest.peak, between);
-    const bool hidden = scale.is_more(peak, useless);
-    if (missed || scale.is_more(between, useless))
-      Findings(result).add(
-          ABUT_FAILURE_UNSEEN, missed || hidden,
-          "The obstacle is above the membrane between nodes, by up to "
-              + scale.compared(deepest.any)
-              + (hidden ? ", of which no node knows " + number(peak)
-                        : std::string())
-              + (missed
-                     ? ", and cells that it is in by up to "
-                           + number(deepest.missed) + " have no contact at all"
-                     : std::string())
-              + ": refine the mesh there.");
-  }
-
-  template <int dim>
   ContactExamination
-  ContactAssembler<dim>::examine(const la::VectorView &given_displacement,
-                                 const la::VectorView &residual,
-                                 const bool allow_large_strain)
+  examine(ContactProblem<dim> &i, const la::VectorView &given_displacement,
+          const la::VectorView &residual, const bool allow_large_strain)
   {
-    Implementation &i = *implementation;
     const bool can_touch = !i.pairs.empty() || i.obstacle.lower != nullptr
                            || i.obstacle.upper != nullptr;
     if (can_touch)
@@ -519,16 +496,16 @@ namespace abut
     Findings findings(result);
     if (residual)
     {
-      result.imbalance = imbalance(residual);
+      result.imbalance = i.checks->imbalance(residual);
       judge_balance(result.imbalance, findings);
     }
     if (can_touch && i.surfaces == nullptr)
     {
-      i.examine_membrane(displacement, penetration(), result);
+      examine_membrane(i, displacement, result);
       return result;
     }
-    const shim::Strains strain = shim::strains(
-        i.host.mapping(), i.host.dof_handler(), displacement, i.axisymmetric);
+    const Strains strain = strains(i.host.mapping(), i.host.dof_handler(),
+                                   displacement, i.axisymmetric);
     result.strain = strain.largest;
     result.mean_strain = strain.mean;
     judge_strain(result, allow_large_strain, findings);
@@ -544,31 +521,30 @@ namespace abut
                          "direction if the motion matters.");
     result.motions = i.solver != nullptr ? i.solver->rigid_motions(displacement)
                                          : i.followed_motions;
-    const std::vector<shim::FacetPenetration> facet_penetrations =
-        i.find_facet_penetrations(displacement);
+    const std::vector<FacetPenetration> facet_penetrations =
+        i.source->facet_penetrations(displacement, i.row_states().data());
     i.surfaces->examination().examine(displacement, i.row_pressures().data(),
                                       i.gap.data(), i.row_states().data(),
                                       facet_penetrations);
     result.deformation = i.deformation(displacement);
-    const std::vector<PairCheck> checks = pair_checks();
-    const std::vector<PairResult<dim>> pairs = pair_results();
-    const std::vector<shim::SurfacePair<dim>> &surface_pairs =
+    const std::vector<PairCheck> checks = i.checks->pairs();
+    const std::vector<PairResult<dim>> pairs = i.results->pairs();
+    const std::vector<SurfacePair<dim>> &surface_pairs =
         i.surfaces->set().pairs();
     std::vector<Scale> scales;
     std::vector<double> visible;
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       scales.push_back({result.deformation,
-                        shim::largest_displacement(
-                            i.near_null_space(), displacement, i.communicator),
+                        largest_displacement(i.near_null_space(), displacement,
+                                             i.communicator),
                         round_off_of_places * checks[p].facet_size});
       // Where raising gaps has not come to its end, anything that is left.
       visible.push_back(i.raises_end_early() ? i.least_clearance(displacement)
                                              : scales[p].limit(useless));
     }
-    const std::vector<shim::SeparatedRows> apart =
-        i.surfaces->examination().apart(visible, i.row_pressures().data(),
-                                        i.gap.data(), i.row_states().data());
+    const std::vector<SeparatedRows> apart = i.surfaces->examination().apart(
+        visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const bool is_obstacle = i.pairs[p].obstacle != nullptr;
@@ -581,7 +557,7 @@ namespace abut
                       is_obstacle, i.pairs[p].secondary == i.pairs[p].primary,
                       surface_pairs[p].has_mean_gaps(), scale, findings);
       judge_rotation(pairs[p], allow_large_strain, findings);
-      judge_depths(pairs[p], pairs[p].penetration - i.soft_on_purpose(), scale,
+      judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i), scale,
                    findings);
       const auto &narrowest = surface_pairs[p].narrowest;
       judge_between(pairs[p], p, is_obstacle,
@@ -592,13 +568,12 @@ namespace abut
                                || pairs[p].between_rows > 0.);
       judge_separated_rows(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrowest, findings);
-      // Bodies with pressure may be deformed by bending alone: compared with
-      // all motion.
+      // Bodies with pressure may be deformed by bending alone: compared
+      // with all motion.
       const Scale motion{scale.far, scale.far, scale.least};
       judge_chords(pairs[p].name,
-                   shim::chord_error(i.surfaces->points(), p,
-                                     i.row_states().data(),
-                                     motion.limit(useless_chord)),
+                   chord_error(i.surfaces->points(), p, i.row_states().data(),
+                               motion.limit(useless_chord)),
                    motion, findings);
       if (!is_obstacle)
         judge_corners(pairs[p], checks[p], surface_pairs[p].held_in_the_mean,
@@ -610,14 +585,13 @@ namespace abut
                            "measured, and no answer.");
       if (is_obstacle && i.pairs[p].geometric_gap)
       {
-        const auto inside = shim::find_obstacle_in_bodies(
+        const auto inside = find_obstacle_in_bodies(
             i.host.mapping(), i.host.dof_handler(), displacement, i.pairs[p]);
-        judge_inside(
-            pairs[p].name, inside,
-            inside.is_inside(checks[p].facet_size)
-                ? shim::passed_between(i.surfaces->points(), p, inside.place)
-                : shim::ObstacleWidth(),
-            checks[p].facet_size, result.strain, scale, findings);
+        judge_inside(pairs[p].name, inside,
+                     inside.is_inside(checks[p].facet_size)
+                         ? passed_between(i.surfaces->points(), p, inside.place)
+                         : ObstacleWidth(),
+                     checks[p].facet_size, result.strain, scale, findings);
       }
       result.missed_depth =
           std::max(result.missed_depth, pairs[p].missed_depth);
@@ -625,74 +599,10 @@ namespace abut
     return result;
   }
 
-  template <int dim>
-  double
-  ContactAssembler<dim>::missed_depth(const la::VectorView &given_displacement,
-                                      dealii::Vector<float> &depth)
-  {
-    Implementation &i = *implementation;
-    i.check_rows("missed_depth()");
-    const la::Vector &displacement =
-        i.host.vector("missed_depth()", "displacement", given_displacement);
-    depth.reinit(i.host.dof_handler().get_triangulation().n_active_cells());
-    const double least_peak = useless * i.deformation(displacement);
-    double largest = 0.;
-    for (const shim::FacetPenetration &found :
-         i.find_facet_penetrations(displacement))
-      if (found.is_missed || found.peak > least_peak)
-      {
-        const double here = found.is_missed ? found.depth : found.peak;
-        depth(found.cell) =
-            std::max(depth(found.cell), static_cast<float>(here));
-        largest = std::max(largest, here);
-      }
-    return MPI::max(largest, i.communicator);
-  }
-
-  template <int dim>
-  void ContactAssembler<dim>::check_supports(
-      const Tangent &tangent, const la::VectorView &given_residual) const
-  {
-    const Implementation &i = *implementation;
-    i.check_rows("check_supports()");
-    const solve::Stiffness stiffness =
-        i.host.stiffness("check_supports()", tangent);
-    if (i.surfaces == nullptr)
-      return;
-    solve::UnsupportedBodies unsupported;
-    unsupported.reinit(stiffness, i.coefficients, i.near_null_space());
-    const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-    auto free = unsupported.free_motions(i.coefficients, all);
-    if (given_residual)
-    {
-      const la::Vector &residual =
-          i.host.vector("check_supports()", "residual", given_residual);
-      free = unsupported.along_which_works(free, residual,
-                                           solve::UnsupportedBodies::no_work
-                                               * residual.l1_norm());
-    }
-    if (!free.empty())
-      unsupported.fail(free, solve::n_resisting(i.coefficients, all),
-                       "contact rows, open or not", "or tie it");
-  }
-
-#define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<shim::FacetPenetration>                                 \
-  ContactAssembler<dim>::Implementation::find_facet_penetrations(              \
-      const la::Vector &);                                                     \
-  template double ContactAssembler<dim>::Implementation::deformation(          \
-      const la::Vector &) const;                                               \
-  template void ContactAssembler<dim>::Implementation::examine_membrane(       \
-      const la::Vector &, double, ContactExamination &);                       \
-  template void ContactAssembler<dim>::check_supports(                         \
-      const Tangent &, const la::VectorView &) const;                          \
-  template ContactExamination ContactAssembler<dim>::examine(                  \
-      const la::VectorView &, const la::VectorView &, bool);                   \
-  template double ContactAssembler<dim>::Implementation::soft_on_purpose()     \
-      const;                                                                   \
-  template double ContactAssembler<dim>::missed_depth(                         \
-      const la::VectorView &, dealii::Vector<float> &);
-
-  ABUT_INSTANTIATE(2)
-  ABUT_INSTANTIATE(3)
-} // namespace abut
+  template ContactExamination examine(ContactProblem<2> &,
+                                      const la::VectorView &,
+                                      const la::VectorView &, bool);
+  template ContactExamination examine(ContactProblem<3> &,
+                                      const la::VectorView &,
+                                      const la::VectorView &, bool);
+} // namespace abut::shim

@@ -2,7 +2,7 @@
 // Rows that move with the bodies: they are made at each linearisation, and go
 // on from what rows of the same number had; what their forces change by because
 // their directions do is a part of the tangent.
-#include "contact_implementation.h"
+#include "contact_problem.h"
 #include "partner_changes.h"
 
 #include "solve/row_stiffness.h"
@@ -15,7 +15,7 @@ namespace abut
 {
   namespace MPI = dealii::Utilities::MPI;
 
-  template <int dim> bool ContactAssembler<dim>::Implementation::moves() const
+  template <int dim> bool shim::ContactProblem<dim>::moves() const
   {
     if (source != nullptr && !source_is_outdated)
       return source->moves();
@@ -27,7 +27,7 @@ namespace abut
   }
 
   template <int dim>
-  shim::RowValues ContactAssembler<dim>::Implementation::row_values() const
+  shim::RowValues shim::ContactProblem<dim>::row_values() const
   {
     shim::RowValues values;
     values.has_states = is_started || !start.state().empty();
@@ -40,8 +40,8 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::move_rows(
-      const la::Vector &displacement, const shim::RowValues &before)
+  void shim::ContactProblem<dim>::move_rows(const la::Vector &displacement,
+                                            const shim::RowValues &before)
   {
     record_present();
     start.set_restarted(start.is_restarted() || is_started);
@@ -51,7 +51,7 @@ namespace abut
     start.go_on(start_rows(), before);
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::find_geometry()
+  template <int dim> void shim::ContactProblem<dim>::find_geometry()
   {
     moving.clear();
     if (!moves())
@@ -68,8 +68,7 @@ namespace abut
     find_substitution();
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::find_substitution()
+  template <int dim> void shim::ContactProblem<dim>::find_substitution()
   {
     // A row that is far open does not close in this linearisation, or as if it
     // were straight: its lever would move its node by too much.
@@ -81,14 +80,13 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::update_gap(
-      const la::Vector &displacement)
+  void shim::ContactProblem<dim>::update_gap(const la::Vector &displacement)
   {
     compute_gap(moving.linear_displacement(displacement));
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::add_round_off_of_positions(
+  void shim::ContactProblem<dim>::add_round_off_of_positions(
       la::Vector &displacement) const
   {
     // Round-off of displacements counts a hundred times in forces; that of
@@ -102,8 +100,8 @@ namespace abut
   }
 
   template <int dim>
-  typename ContactAssembler<dim>::Implementation::RowsElsewhere
-  ContactAssembler<dim>::Implementation::rows_at(const la::Vector &displacement)
+  typename shim::ContactProblem<dim>::RowsElsewhere
+  shim::ContactProblem<dim>::rows_at(const la::Vector &displacement)
   {
     RowsElsewhere result;
     result.points = shim::create_points(context.get(), points_dimension);
@@ -126,8 +124,7 @@ namespace abut
   }
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::follow(const la::Vector &displacement)
+  void shim::ContactProblem<dim>::follow(const la::Vector &displacement)
   {
     const std::vector<std::int64_t> before = row_numbers();
     if (solver != nullptr)
@@ -152,8 +149,9 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::Implementation::evaluate_moved(
-      const la::Vector &displacement, la::Vector &forces)
+  double
+  shim::ContactProblem<dim>::evaluate_moved(const la::Vector &displacement,
+                                            la::Vector &forces)
   {
     std::map<std::int64_t, int> row_of;
     for (int row = 0; row < coefficients.n_rows(); ++row)
@@ -194,20 +192,16 @@ namespace abut
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template bool ContactAssembler<dim>::Implementation::moves() const;          \
-  template shim::RowValues ContactAssembler<dim>::Implementation::row_values() \
-      const;                                                                   \
-  template void ContactAssembler<dim>::Implementation::move_rows(              \
-      const la::Vector &, const shim::RowValues &);                            \
-  template void ContactAssembler<dim>::Implementation::find_geometry();        \
-  template void                                                                \
-  ContactAssembler<dim>::Implementation::add_round_off_of_positions(           \
+  template bool shim::ContactProblem<dim>::moves() const;                      \
+  template shim::RowValues shim::ContactProblem<dim>::row_values() const;      \
+  template void shim::ContactProblem<dim>::move_rows(const la::Vector &,       \
+                                                     const shim::RowValues &); \
+  template void shim::ContactProblem<dim>::find_geometry();                    \
+  template void shim::ContactProblem<dim>::add_round_off_of_positions(         \
       la::Vector &) const;                                                     \
-  template void ContactAssembler<dim>::Implementation::update_gap(             \
-      const la::Vector &);                                                     \
-  template void ContactAssembler<dim>::Implementation::follow(                 \
-      const la::Vector &);                                                     \
-  template double ContactAssembler<dim>::Implementation::evaluate_moved(       \
+  template void shim::ContactProblem<dim>::update_gap(const la::Vector &);     \
+  template void shim::ContactProblem<dim>::follow(const la::Vector &);         \
+  template double shim::ContactProblem<dim>::evaluate_moved(                   \
       const la::Vector &, la::Vector &);
 
   ABUT_INSTANTIATE(2)

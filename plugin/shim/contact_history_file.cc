@@ -76,7 +76,7 @@ namespace abut::shim
       read(stream, reinterpret_cast<char *>(&head), sizeof(head));
       if (std::memcmp(head.magic, magic, sizeof(magic)) != 0)
         throw HistoryError("This is no history of contact, as "
-                           "ContactAssembler::save() writes it.");
+                           "ContactState::save() writes it.");
       if (head.byte_order != byte_order)
         throw HistoryError("The history of contact was written by a machine "
                            "with another order of bytes.");
@@ -200,7 +200,7 @@ namespace abut::shim
                   "The history of contact belongs to another mesh, or to other "
                   "surfaces: points there have other numbers. Take the "
                   "pressure along as a field instead, see "
-                  "ContactAssembler::set_pressure().");
+                  "ContactState::set_pressure().");
             merge(context_, part.get(), loaded.get());
           }
         });

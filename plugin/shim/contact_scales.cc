@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Scales of pressures, gaps and residuals.
-#include "contact_implementation.h"
+#include "contact_problem.h"
 
 #include "deformation.h"
 
@@ -20,8 +20,8 @@ namespace abut
   } // namespace
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::set_scales(
-      const solve::Stiffness &matrix, const la::Vector &residual)
+  void shim::ContactProblem<dim>::set_scales(const solve::Stiffness &matrix,
+                                             const la::Vector &residual)
   {
     // Internal forces at the start measure the load when the residual is
     // small because the start is good.
@@ -59,8 +59,7 @@ namespace abut
       options.length_scale = length;
   }
 
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::softness() const
+  template <int dim> double shim::ContactProblem<dim>::softness() const
   {
     double sums[2] = {0., 0.};
     for (int i = 0; i < coefficients.n_rows(); ++i)
@@ -73,8 +72,8 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::Implementation::length_scale(
-      const la::Vector &displacement) const
+  double
+  shim::ContactProblem<dim>::length_scale(const la::Vector &displacement) const
   {
     if (given_length > 0.)
       return given_length;
@@ -85,23 +84,20 @@ namespace abut
                     surfaces->set().facet_size());
   }
 
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::length_scale() const
+  template <int dim> double shim::ContactProblem<dim>::length_scale() const
   {
     const double length = measured_length();
     return length > 0. ? length : unmeasured_length();
   }
 
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::unmeasured_length() const
+  template <int dim> double shim::ContactProblem<dim>::unmeasured_length() const
   {
     const double facet =
         surfaces == nullptr ? 0. : surfaces->set().facet_size();
     return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
   }
 
-  template <int dim>
-  double ContactAssembler<dim>::Implementation::measured_length() const
+  template <int dim> double shim::ContactProblem<dim>::measured_length() const
   {
     const double way = length_scale(start_displacement);
     if (way > least_scale)
@@ -119,17 +115,26 @@ namespace abut
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
+  template <int dim>
+  double
+  shim::ContactProblem<dim>::deformation(const la::Vector &displacement) const
+  {
+    return surfaces == nullptr ? displacement.linfty_norm()
+                               : shim::deformation(near_null_space(),
+                                                   displacement, communicator);
+  }
+
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template void ContactAssembler<dim>::Implementation::set_scales(             \
+  template void shim::ContactProblem<dim>::set_scales(                         \
       const solve::Stiffness &, const la::Vector &);                           \
-  template double ContactAssembler<dim>::Implementation::softness() const;     \
-  template double ContactAssembler<dim>::Implementation::length_scale(         \
-      const la::Vector &) const;                                               \
-  template double ContactAssembler<dim>::Implementation::length_scale() const; \
-  template double ContactAssembler<dim>::Implementation::unmeasured_length()   \
+  template double shim::ContactProblem<dim>::deformation(const la::Vector &)   \
       const;                                                                   \
-  template double ContactAssembler<dim>::Implementation::measured_length()     \
-      const;
+  template double shim::ContactProblem<dim>::softness() const;                 \
+  template double shim::ContactProblem<dim>::length_scale(const la::Vector &)  \
+      const;                                                                   \
+  template double shim::ContactProblem<dim>::length_scale() const;             \
+  template double shim::ContactProblem<dim>::unmeasured_length() const;        \
+  template double shim::ContactProblem<dim>::measured_length() const;
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

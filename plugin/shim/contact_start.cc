@@ -9,14 +9,13 @@
 //   set_pairs()  of other surfaces: numbers are others, the field of pressures
 //                is what remains
 //   commit()     the trial version is kept; rollback() brings it back
-#include "contact_implementation.h"
+#include "contact_problem.h"
 
 #include <algorithm>
 
 namespace abut
 {
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::record_present()
+  template <int dim> void shim::ContactProblem<dim>::record_present()
   {
     if (!is_started)
       return;
@@ -29,14 +28,13 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<std::int64_t>
-  ContactAssembler<dim>::Implementation::row_numbers() const
+  std::vector<std::int64_t> shim::ContactProblem<dim>::row_numbers() const
   {
     return {coefficients.ids(), coefficients.ids() + coefficients.n_rows()};
   }
 
   template <int dim>
-  shim::StartRows ContactAssembler<dim>::Implementation::start_rows() const
+  shim::StartRows shim::ContactProblem<dim>::start_rows() const
   {
     // A law of the user's may pull.
     return {*source, coefficients, placed_rows, rows_mesh,
@@ -44,8 +42,8 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::go_on_with_penalty(
-      abut_strategy_options &options)
+  void
+  shim::ContactProblem<dim>::go_on_with_penalty(abut_strategy_options &options)
   {
     penalty = {
         std::string(options.law->name).substr(0, ABUT_HISTORY_LAW_BYTES - 1),
@@ -55,8 +53,7 @@ namespace abut
       options.penalty = reached;
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::start_from_present()
+  template <int dim> void shim::ContactProblem<dim>::start_from_present()
   {
     std::vector<std::uint8_t> state;
     if (!abut_law_is_interior(method.options.law))
@@ -64,16 +61,14 @@ namespace abut
     start.go_on(start_rows(), row_pressures(), std::move(state));
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::abandon_iteration()
+  template <int dim> void shim::ContactProblem<dim>::abandon_iteration()
   {
     is_started = was_added = false;
     start.abandon();
     iteration_tolerance = 0.;
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::return_to_history()
+  template <int dim> void shim::ContactProblem<dim>::return_to_history()
   {
     abandon_iteration();
     if (source == nullptr)
@@ -88,7 +83,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::commit(const la::VectorView &given_displacement)
   {
-    Implementation &i = *implementation;
+    auto &i = *implementation;
     i.host.check_mesh("commit()");
     const la::Vector &displacement =
         i.host.vector("commit()", "displacement", given_displacement);
@@ -114,81 +109,24 @@ namespace abut
       i.find_slip_reference();
   }
 
-  template <int dim>
-  void
-  ContactAssembler<dim>::set_committed(const la::VectorView &given_displacement)
-  {
-    Implementation &i = *implementation;
-    i.host.check_mesh("set_committed()");
-    const la::Vector &displacement =
-        i.host.vector("set_committed()", "displacement", given_displacement);
-    if (i.surfaces != nullptr)
-      i.surfaces->set().record_commit(displacement);
-    i.committed.record(displacement, true, i.pairs);
-    if (i.has_rows)
-      i.find_slip_reference();
-  }
-
   template <int dim> void ContactAssembler<dim>::rollback()
   {
     implementation->history.rollback();
     implementation->return_to_history();
   }
 
-  template <int dim> void ContactAssembler<dim>::save(std::ostream &stream)
-  {
-    Implementation &i = *implementation;
-    i.history.save(stream);
-    i.elements.save(stream, i.communicator);
-    if (i.surfaces != nullptr)
-      i.exchange->self_contact().save(stream);
-    // Who loads has no preconditioner, nor points that were made earlier: then
-    // neither should this run.
-    i.solver.reset();
-    if (i.surfaces != nullptr)
-      i.surfaces->renew_points();
-  }
-
-  template <int dim> void ContactAssembler<dim>::load(std::istream &stream)
-  {
-    Implementation &i = *implementation;
-    i.host.check_mesh("load()");
-    if (i.source_is_outdated)
-      i.create_source();
-    const std::uint64_t mesh = i.source->mesh_signature();
-    shim::ContactElements elements;
-    i.history.load(stream, mesh,
-                   [&]
-                   {
-                     elements.load(stream, i.communicator);
-                     if (i.surfaces != nullptr)
-                       i.surfaces->load_sides(stream);
-                   });
-    i.elements = std::move(elements);
-    // Displacements are the host's to keep: that of the commit() must come from
-    // there, or slips would be measured from the reference configuration.
-    if (i.committed.displacement().size() == 0
-        && i.history.knows(ABUT_HISTORY_COMMITTED, mesh))
-      i.committed.lose();
-    i.return_to_history();
-  }
-
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<std::int64_t>                                           \
-  ContactAssembler<dim>::Implementation::row_numbers() const;                  \
-  template shim::StartRows ContactAssembler<dim>::Implementation::start_rows() \
+  template std::vector<std::int64_t> shim::ContactProblem<dim>::row_numbers()  \
       const;                                                                   \
-  template void ContactAssembler<dim>::Implementation::record_present();       \
-  template void ContactAssembler<dim>::Implementation::go_on_with_penalty(     \
+  template shim::StartRows shim::ContactProblem<dim>::start_rows() const;      \
+  template void shim::ContactProblem<dim>::record_present();                   \
+  template void shim::ContactProblem<dim>::go_on_with_penalty(                 \
       abut_strategy_options &);                                                \
-  template void ContactAssembler<dim>::Implementation::start_from_present();   \
-  template void ContactAssembler<dim>::Implementation::abandon_iteration();    \
-  template void ContactAssembler<dim>::Implementation::return_to_history();    \
+  template void shim::ContactProblem<dim>::start_from_present();               \
+  template void shim::ContactProblem<dim>::abandon_iteration();                \
+  template void shim::ContactProblem<dim>::return_to_history();                \
   template void ContactAssembler<dim>::commit(const la::VectorView &);         \
-  template void ContactAssembler<dim>::set_committed(const la::VectorView &);  \
-  template void ContactAssembler<dim>::rollback();                             \
-  template void ContactAssembler<dim>::save(std::ostream &);                   \
-  template void ContactAssembler<dim>::load(std::istream &);
+  template void ContactAssembler<dim>::rollback();
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -113,7 +113,7 @@ namespace abut::shim
     double thickness = 0., own_thickness = 0.;
     /** Distances that the facets known here suffice for. */
     double reach = 0., margin = 0.;
-    /** Parts of this rank, by the last examine() and check_penetration(). */
+    /** Parts of this rank, by the last examine() and penetrations(). */
     PairResult<dim> measured;
     /** How deep nodes of the secondary that have rows are in the other side,
      * length >= 0, by the last penetrations(): rows of mortar hold them in the

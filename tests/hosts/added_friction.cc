@@ -136,7 +136,7 @@ namespace
     difference -= solved.solution();
     const double error =
         difference.linfty_norm() / solved.solution().linfty_norm();
-    const PairResult<dim> result = added.contact().pair_results()[0];
+    const PairResult<dim> result = added.contact().results().pairs()[0];
     if (hosts::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << run.name << ": " << result.n_slipping << " of "
                 << result.n_active << " slip, T/N "
@@ -146,8 +146,8 @@ namespace
     const auto check =
         [&](const double value, const double bound, const char *const what)
     { good = hosts::is_at_most(value, bound, run.name + ": " + what) && good; };
-    check(added.contact().reason() == ABUT_REASON_CONVERGED ? 0. : 1., 0.,
-          "failure to converge");
+    check(added.contact().iteration().reason == ABUT_REASON_CONVERGED ? 0. : 1.,
+          0., "failure to converge");
     check(error, 1e-8, "difference of the displacements");
     check(result.n_slipping > 0 ? 0. : 1., 0., "lack of slip");
     if (aside == all)

@@ -73,7 +73,8 @@ namespace
 
     const auto check_pull = [&](const std::string &when)
     {
-      const double pull = blocks.contact.pair_results()[0].secondary_force[1];
+      const double pull =
+          blocks.contact.results().pairs()[0].secondary_force[1];
       expect(std::abs(std::abs(pull) / exact - 1.) <= 1e-9,
              when + ": force " + std::to_string(pull) + " instead of "
                  + std::to_string(exact));
@@ -82,7 +83,7 @@ namespace
       problem.residual(blocks.u, residual);
       la::Vector forces(blocks.u);
       forces = 0.;
-      blocks.contact.add_contact_forces(forces);
+      blocks.contact.results().add_forces(forces);
       blocks.constraints.set_zero(forces);
       residual -= forces;
       expect(residual.l2_norm() <= 1e-9 * exact, when + ": balance of forces");
@@ -92,11 +93,11 @@ namespace
     check_pull("after linearise()");
     blocks.contact.detect(blocks.u);
     check_pull("after detect()");
-    const la::Vector pressure = blocks.contact.pressure();
+    const la::Vector pressure = blocks.contact.results().pressure();
     expect(std::abs(pressure.linfty_norm() / exact - 1.) <= 1e-9,
            "pressure as a field");
     blocks.reinit_contact();
-    blocks.contact.set_pressure(pressure);
+    blocks.contact.state().set_pressure(pressure);
     blocks.contact.detect(blocks.u);
     check_pull("after set_pressure()");
   }

@@ -57,11 +57,11 @@ namespace
         {"update", [&] { contact.update(u); }},
         {"solve_linearised", [&] { contact.solve_linearised(matrix, r, u); }},
         {"evaluate", [&] { contact.evaluate(u, r); }},
-        {"add_contact_forces", [&] { contact.add_contact_forces(r); }},
-        {"candidate_nodes", [&] { contact.candidate_nodes(); }},
-        {"imbalance", [&] { contact.imbalance(r, 1.); }},
-        {"transfer_errors", [&] { contact.transfer_errors(u); }},
-        {"check_penetration", [&] { contact.check_penetration(u, 1e-3); }},
+        {"add_forces", [&] { contact.results().add_forces(r); }},
+        {"candidate_nodes", [&] { contact.results().candidate_nodes(); }},
+        {"imbalance", [&] { contact.checks().imbalance(r, 1.); }},
+        {"transfer_errors", [&] { contact.checks().transfer_errors(u); }},
+        {"penetrations", [&] { contact.checks().penetrations(u, 1e-3); }},
     };
   }
 
@@ -98,8 +98,8 @@ namespace
     ContactAssembler<2> &contact = blocks.contact;
     refuses("detect", "reinit()", [&] { contact.detect(new_u); });
     refuses("detect", "reinit()", [&] { contact.detect(u); });
-    refuses("pressure", "reinit()", [&] { contact.pressure(); });
-    refuses("pair_results", "reinit()", [&] { contact.pair_results(); });
+    refuses("pressure", "reinit()", [&] { contact.results().pressure(); });
+    refuses("pairs", "reinit()", [&] { contact.results().pairs(); });
     for (const Call &call : calls(contact, new_matrix, new_u, new_r))
       refuses(call.name, "reinit()", call.make);
 
@@ -117,18 +117,18 @@ namespace
     contact.solve(new_matrix, new_r, new_u);
   }
 
-  /** What check_penetration() throws leaves no surface displaced. */
+  /** What penetrations() throws leaves no surface displaced. */
   void check_surfaces_after_failure()
   {
     Blocks blocks;
     la::Vector u(blocks.u);
     blocks.contact.detect(u);
-    const la::Vector before = blocks.contact.gap();
+    const la::Vector before = blocks.contact.results().gap();
     la::Vector far(blocks.uniform(1e160, -1e160));
     bool has_thrown = false;
     try
     {
-      blocks.contact.check_penetration(far, 1e-3);
+      blocks.contact.checks().penetrations(far, 1e-3);
     }
     catch (const std::exception &error)
     {
@@ -136,7 +136,7 @@ namespace
     }
     expect(has_thrown, "a search of points out of range");
     blocks.contact.detect(u);
-    la::Vector after = blocks.contact.gap();
+    la::Vector after = blocks.contact.results().gap();
     after -= before;
     expect(before.linfty_norm() > 0.9 * hosts::distance
                && after.linfty_norm() == 0.,

@@ -405,7 +405,7 @@ namespace
     if (is_first_rank())
       std::cout << name << std::endl;
     press(run, exact.depth, parabola ? of_height : of_distance);
-    const PairResult<dim> result = run.contact.pair_results()[0];
+    const PairResult<dim> result = run.contact.results().pairs()[0];
     const double width = dim == 3 ? Block<dim>::depth : 1.;
     const auto corner = run.block.at(1., 1.), middle = run.block.at(0., 1.);
     expect(result.n_active == exact.active * (dim - 1),
@@ -431,8 +431,8 @@ namespace
     Press<dim> run(settings);
     press(run, 0.2, of_distance);
     const std::string name = "degree " + std::to_string(degree);
-    const double force = -run.contact.pair_results()[0].secondary_force[1];
-    expect(run.contact.pair_results()[0].penetration <= 1e-13,
+    const double force = -run.contact.results().pairs()[0].secondary_force[1];
+    expect(run.contact.results().pairs()[0].penetration <= 1e-13,
            name + ": penetration");
     double energy[2];
     for (int side = 0; side < 2; ++side)
@@ -456,7 +456,7 @@ namespace
     if (is_first_rank())
       std::cout << law << std::endl;
     press(run, 0.1, of_height);
-    expect_near(-run.contact.pair_results()[0].secondary_force[1],
+    expect_near(-run.contact.results().pairs()[0].secondary_force[1],
                 0.048037653521, bound * 0.048, law + ": force");
   }
 } // namespace

@@ -89,7 +89,8 @@ namespace
       // The same for those with a loop of their own.
       la::Vector residual(u);
       problem(blocks, sign).residual(u, residual);
-      const ContactExamination seen = blocks.contact().examine(u, &residual);
+      const ContactExamination seen =
+          blocks.contact().checks().examine(u, residual);
       expect(has(seen, ABUT_FAILURE_UNBALANCED, true) == (sign < 0.),
              "balance of an answer of sign " + std::to_string(sign));
       expect(sign < 0. ? seen.imbalance > 1. : seen.imbalance < 1e-6,
@@ -108,7 +109,7 @@ namespace
       la::Vector u = blocks.start();
       const NewtonResult result = solve(blocks, 1., u);
       expect(result.converged(), "strain: " + result.explanation);
-      const ContactExamination seen = blocks.contact().examine(u);
+      const ContactExamination seen = blocks.contact().checks().examine(u);
       expect(std::abs(seen.strain / strain - 1.) < 1e-6,
              "largest strain " + std::to_string(seen.strain) + " instead of "
                  + std::to_string(strain));
@@ -118,7 +119,7 @@ namespace
       expect(has(seen, ABUT_FAILURE_LARGE_STRAIN, true) == (strain > 0.3)
                  && seen.is_usable() == (strain < 0.3),
              "an error of strain " + std::to_string(strain));
-      expect(blocks.contact().examine(u, nullptr, true).is_usable(),
+      expect(blocks.contact().checks().examine(u, {}, true).is_usable(),
              "large strain that is allowed");
     }
   }
@@ -134,8 +135,8 @@ namespace
     {
       la::Vector moved(u);
       moved += blocks.sideways(way);
-      const ContactExamination seen = blocks.contact().examine(moved);
-      const double slip = blocks.contact().pair_results()[0].slip;
+      const ContactExamination seen = blocks.contact().checks().examine(moved);
+      const double slip = blocks.contact().results().pairs()[0].slip;
       expect(std::abs(slip - way) < 1e-2, "slip " + std::to_string(slip));
       // The facets of the lower block, a third, are the larger ones.
       expect(has(seen, ABUT_FAILURE_SLIDING, false) == (way > 0.5),
@@ -190,8 +191,8 @@ namespace
       for (const double angle : {0., 0.03, -0.07, 0.2})
       {
         const ContactExamination seen =
-            blocks.contact().examine(turned(blocks, u, angle));
-        const PairResult<2> pair = blocks.contact().pair_results()[0];
+            blocks.contact().checks().examine(turned(blocks, u, angle));
+        const PairResult<2> pair = blocks.contact().results().pairs()[0];
         expect(std::abs(pair.rotation - std::abs(angle)) < 1e-9
                    && std::abs(pair.largest_rotation - std::abs(angle)) < 1e-9,
                "a turn of " + std::to_string(pair.rotation) + " instead of "
@@ -270,12 +271,13 @@ namespace
     blocks.prepare({against(std::make_shared<RigidObstacle<2>>(shape))});
     const la::Vector rest = blocks.displacement();
     blocks.contact().detect(rest);
-    const ContactExamination seen = blocks.contact().examine(rest);
+    const ContactExamination seen = blocks.contact().checks().examine(rest);
     expect(std::abs(seen.missed_depth - 0.03) < 1e-12,
            "depth of the bar: " + std::to_string(seen.missed_depth));
     expect(has(seen, ABUT_FAILURE_UNSEEN, true), "a bar that no node sees");
     dealii::Vector<float> depth;
-    expect(std::abs(blocks.contact().missed_depth(rest, depth) - 0.03) < 1e-12,
+    expect(std::abs(blocks.contact().checks().missed_depth(rest, depth) - 0.03)
+               < 1e-12,
            "the same by cell");
     double x = 0.;
     for (const auto &cell : blocks.dof_handler().active_cell_iterators())
@@ -300,7 +302,7 @@ namespace
       std::string message;
       try
       {
-        blocks.contact().check_supports(blocks.stiffness());
+        blocks.contact().checks().supports(blocks.stiffness());
       }
       catch (const SolverFailure &failure)
       {

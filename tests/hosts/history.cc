@@ -156,7 +156,8 @@ namespace
              name + "another displacement after a rollback, by "
                  + std::to_string(largest_difference(never.displacement,
                                                      tried.displacement)));
-      expect(are_same(never.contact().pressure(), tried.contact().pressure()),
+      expect(are_same(never.contact().results().pressure(),
+                      tried.contact().results().pressure()),
              name + "another pressure after a rollback");
       never.commit();
       tried.commit();
@@ -171,38 +172,39 @@ namespace
     first.step(0.01);
     first.commit();
     std::stringstream file;
-    first.contact().save(file);
+    first.contact().state().save(file);
     const bool has_bytes = file.str().size() > 100;
     expect(has_bytes == (MPI::this_mpi_process(MPI_COMM_WORLD) == 0),
            name + "rank 0 writes");
 
     Steps<dim> second(run);
     second.displacement = first.displacement;
-    second.contact().load(file);
-    const la::Vector saved = first.contact().pressure();
+    second.contact().state().load(file);
+    const la::Vector saved = first.contact().results().pressure();
     for (Steps<dim> *steps : {&first, &second})
       steps->step(0.015);
     expect(are_same(first.displacement, second.displacement),
            name + "another displacement after load()");
-    expect(are_same(first.contact().pressure(), second.contact().pressure()),
+    expect(are_same(first.contact().results().pressure(),
+                    second.contact().results().pressure()),
            name + "another pressure after load()");
     second.contact().rollback();
     second.contact().detect(first.displacement);
-    expect(are_same(second.contact().pressure(), saved),
+    expect(are_same(second.contact().results().pressure(), saved),
            name + "what was loaded counts as committed");
 
     // What rank 0 reads goes to whoever has the points now.
     Steps<dim> third(run);
     third.repartition(10000);
-    const double force = first.contact().contact_force();
+    const double force = first.contact().results().measures().force;
     std::stringstream other;
     first.commit();
-    first.contact().save(other);
-    third.contact().load(other);
+    first.contact().state().save(other);
+    third.contact().state().load(other);
     third.contact().detect(third.displacement);
     const auto expect_force = [&](Steps<dim> &steps, const std::string &where)
     {
-      const double other_force = steps.contact().contact_force();
+      const double other_force = steps.contact().results().measures().force;
       expect(std::abs(other_force - force) <= 1e-12 * force && force > 0.,
              name + "force " + where);
     };
@@ -211,13 +213,13 @@ namespace
     // From all ranks to each alone, and from one to all.
     Steps<dim> alone(run, MPI_COMM_SELF), together(run);
     std::stringstream copy(MPI::broadcast(MPI_COMM_WORLD, other.str()));
-    alone.contact().load(copy);
+    alone.contact().state().load(copy);
     alone.contact().detect(alone.displacement);
     expect_force(alone, "on each rank alone");
     alone.commit();
     std::stringstream back;
-    alone.contact().save(back);
-    together.contact().load(back);
+    alone.contact().state().save(back);
+    together.contact().state().load(back);
     together.contact().detect(together.displacement);
     expect_force(together, "on all ranks again");
   }
@@ -233,11 +235,11 @@ namespace
     first.step(0.01);
     first.commit();
     std::stringstream file;
-    first.contact().save(file);
+    first.contact().state().save(file);
 
     Steps<dim> second(run, MPI_COMM_WORLD, friction);
     second.displacement = first.displacement;
-    second.contact().load(file);
+    second.contact().state().load(file);
     std::string message;
     try
     {
@@ -249,11 +251,11 @@ namespace
     }
     expect(message.find("set_committed()") != std::string::npos,
            name + "load() without set_committed() says '" + message + "'");
-    second.contact().set_committed(first.displacement);
+    second.contact().state().set_committed(first.displacement);
     for (Steps<dim> *steps : {&first, &second})
     {
       steps->step(0.015);
-      expect(steps->contact().pair_results()[0].friction_force > 0.,
+      expect(steps->contact().results().pairs()[0].friction_force > 0.,
              name + "no friction");
     }
     expect(are_same(first.displacement, second.displacement),
@@ -266,7 +268,7 @@ namespace
     std::istringstream stream(bytes);
     try
     {
-      steps.contact().load(stream);
+      steps.contact().state().load(stream);
     }
     catch (const HistoryError &error)
     {
@@ -284,8 +286,8 @@ namespace
       each->commit();
     }
     std::stringstream file;
-    steps.contact().save(file);
-    same.contact().save(file);
+    steps.contact().state().save(file);
+    same.contact().state().save(file);
     const std::string bytes = MPI::broadcast(MPI_COMM_WORLD, file.str());
     const auto expect_refused =
         [&](const std::string &given, const std::string &word)
@@ -312,7 +314,7 @@ namespace
     other.step(0.01);
     other.commit();
     std::stringstream file_of_other;
-    other.contact().save(file_of_other);
+    other.contact().state().save(file_of_other);
     expect_refused(MPI::broadcast(MPI_COMM_WORLD, file_of_other.str()),
                    "another mesh");
 
@@ -357,15 +359,15 @@ namespace
     const hosts::Errors errors = blocks.solve(u);
     expect(errors.n_active > 0 && errors.n_active < errors.n_rows,
            "part in contact with the plane");
-    const auto before = contact.pair_results();
-    const la::Vector pressure = contact.pressure();
+    const auto before = contact.results().pairs();
+    const la::Vector pressure = contact.results().pressure();
     contact.set_pairs({plane<dim>("first", -10.), plane<dim>("second", 0.)});
     contact.detect(u);
-    const auto after = contact.pair_results();
+    const auto after = contact.results().pairs();
     expect(before[0].n_rows > 0 && before[1].n_rows == 0 && after[0].n_rows == 0
                && after[1].n_rows == before[0].n_rows,
            "all rows change pairs");
-    expect(are_same(contact.pressure(), pressure),
+    expect(are_same(contact.results().pressure(), pressure),
            "another pressure in another pair");
     expect(after[1].n_active == before[0].n_active, "another set in the pair");
   }

@@ -164,8 +164,8 @@ namespace
       u += du;
       problem.blocks.constraints.distribute(u);
     } while (contact.update(u));
-    AssertThrow(contact.reason() == ABUT_REASON_CONVERGED,
-                dealii::ExcMessage(contact.explanation()));
+    AssertThrow(contact.iteration().reason == ABUT_REASON_CONVERGED,
+                dealii::ExcMessage(contact.iteration().explanation));
   }
 
   template <typename M, typename V>
@@ -177,16 +177,16 @@ namespace
     iterate(problem, contact, K, K, rhs, u);
     find_residual(problem, K, rhs, u, R);
     forces = 0.;
-    contact.add_contact_forces(forces);
+    contact.results().add_forces(forces);
     forces -= R;
     note("contact forces", forces.l2_norm() / R.l2_norm(), 1e-10);
-    note("balance", contact.imbalance(R), 1e-10);
-    note("examination", contact.examine(u, &R).imbalance, 1e-10);
-    la::copy(contact.pressure(), pressure);
+    note("balance", contact.checks().imbalance(R), 1e-10);
+    note("examination", contact.checks().examine(u, R).imbalance, 1e-10);
+    la::copy(contact.results().pressure(), pressure);
     contact.commit(u);
     return {contact.copy_of(la::VectorView(u)),
-            contact.pair_results()[0].secondary_force,
-            contact.linear_report().n_systems};
+            contact.results().pairs()[0].secondary_force,
+            contact.results().effort().linear.n_systems};
   }
 
   /** The same by the loop that comes with Abut. */
@@ -205,7 +205,7 @@ namespace
     const NewtonResult result = solver.solve(u);
     AssertThrow(result.converged(), dealii::ExcMessage(result.explanation));
     return {contact.copy_of(la::VectorView(u)),
-            contact.pair_results()[0].secondary_force, result.n_systems};
+            contact.results().pairs()[0].secondary_force, result.n_systems};
   }
 
   double distance(const Answer &a, const Answer &b)
@@ -483,7 +483,7 @@ namespace
       error = std::max(error, std::abs(u(number[i]) - expected.u(i)));
     note("block of the displacement", error / expected.u.linfty_norm(), 1e-10);
     note("force by the block of the displacement",
-         (contact.pair_results()[0].secondary_force - expected.force).norm(),
+         (contact.results().pairs()[0].secondary_force - expected.force).norm(),
          1e-10);
   }
 
@@ -518,7 +518,7 @@ namespace
     iterate(problem, contact, problem.matrix, K, rhs, u);
     note("products with distributed vectors",
          distance({contact.copy_of(la::VectorView(u)),
-                   contact.pair_results()[0].secondary_force, 0},
+                   contact.results().pairs()[0].secondary_force, 0},
                   expected),
          1e-6);
   }

@@ -175,7 +175,7 @@ namespace
       contact.commit(next);
       abut_time_end(&state, la::data(next)); // u, v, a are those of now
       force = 0.;
-      contact.add_contact_forces(force);
+      contact.results().add_forces(force);
       const double pressing = force.mean_value() * double(force.size());
       impulse += dt * pressing;
       last_contact = pressing > 1e-7 ? step : last_contact;

@@ -47,10 +47,10 @@ namespace
   Answer<dim> answer_of(ContactAssembler<dim> &contact, const la::Vector &u,
                         const LinearReport &cost)
   {
-    Answer<dim> result{u, contact.contact_force(), contact.progress().n_active,
-                       cost};
-    expect(contact.reason() == ABUT_REASON_CONVERGED,
-           "converged: " + contact.explanation());
+    Answer<dim> result{u, contact.results().measures().force,
+                       contact.iteration().progress.n_active, cost};
+    expect(contact.iteration().reason == ABUT_REASON_CONVERGED,
+           "converged: " + contact.iteration().explanation);
     return result;
   }
 

@@ -37,11 +37,12 @@ namespace
       la::Vector u(blocks.u);
       blocks.constraints.distribute(u);
       blocks.contact.detect(u);
-      const la::Vector gap = blocks.contact.gap();
+      const la::Vector gap = blocks.contact.results().gap();
       const double exact = hosts::distance - height;
       expect(std::abs(gap.linfty_norm() - std::abs(exact)) <= 1e-14,
              "gap of a die at " + std::to_string(height));
-      expect(std::abs(blocks.contact.penetration() - std::max(0., -exact))
+      expect(std::abs(blocks.contact.results().measures().penetration
+                      - std::max(0., -exact))
                  <= 1e-14,
              "penetration of a die at " + std::to_string(height));
     }
@@ -63,7 +64,7 @@ namespace
       blocks.move_die(hosts::distance + strain);
       const NewtonResult result = solver.solve(blocks.u);
       const double force =
-          std::abs(blocks.contact.pair_results()[0].secondary_force[1]);
+          std::abs(blocks.contact.results().pairs()[0].secondary_force[1]);
       const double exact = hosts::stiffening[1].uniaxial(strain);
       expect(result.converged(), law + ": " + result.explanation);
       expect(std::abs(force / exact - 1.) <= bound,

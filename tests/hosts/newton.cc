@@ -36,7 +36,7 @@ namespace
     ContactSolver<2> solver(blocks.contact, blocks.constraints,
                             blocks.problem(), parameters);
     const NewtonResult result = solver.solve(blocks.u);
-    const PairResult<2> pair = blocks.contact.pair_results()[0];
+    const PairResult<2> pair = blocks.contact.results().pairs()[0];
     const double exact = exact_pressure();
     const double force = std::abs(pair.secondary_force[1]) / exact - 1.;
     const double pressure = pair.pressure / exact - 1.;
@@ -127,8 +127,8 @@ namespace
     contact.assume_constant_matrix(true);
     contact.detect(u);
     // The y of 7 nodes below and of 9 above: no force acts along the surfaces.
-    expect(dealii::Utilities::MPI::sum(contact.candidate_nodes().n_elements(),
-                                       MPI_COMM_WORLD)
+    expect(dealii::Utilities::MPI::sum(
+               contact.results().candidate_nodes().n_elements(), MPI_COMM_WORLD)
                == 16,
            "candidates for contact");
     double imbalance = 1., defect = 1.;
@@ -139,34 +139,35 @@ namespace
       problem.residual(u, residual);
       contact.linearise(u, 1e-10);
       contact.solve_linearised(problem.tangent(u), residual, step);
-      expect(contact.reason() == ABUT_REASON_CONVERGED, "own loop: contact");
+      expect(contact.iteration().reason == ABUT_REASON_CONVERGED,
+             "own loop: contact");
       u += step;
       residual = 0.;
       problem.residual(u, residual);
       defect = contact.evaluate(u, forces);
       imbalance = norm_of_imbalance(blocks, residual, forces);
     }
-    const double force = contact.pair_results()[0].secondary_force[1];
+    const double force = contact.results().pairs()[0].secondary_force[1];
     expect(imbalance <= 1e-9 && n_steps <= 8, "own loop: balance of forces");
     expect(defect <= 1e-9, "own loop: defect of the law");
     expect(std::abs(std::abs(force) / exact_pressure() - 1.) <= 1e-7,
            "own loop: force");
 
-    // The forces are those that add_contact_forces() adds; the defect grows as
+    // The forces are those that add_forces() adds; the defect grows as
     // the gap that opens in rows that are held closed.
     la::Vector added(u);
     added = 0.;
-    contact.add_contact_forces(added);
+    contact.results().add_forces(added);
     added -= forces;
     expect(added.linfty_norm() == 0., "forces of evaluate()");
-    const dealii::IndexSet nodes = contact.candidate_nodes();
+    const dealii::IndexSet nodes = contact.results().candidate_nodes();
     la::Vector opened(u);
     const auto open_by = [&](const double way)
     {
       opened = u;
       la::Vector push(u);
       push = 0.;
-      contact.add_contact_forces(push);
+      contact.results().add_forces(push);
       for (const auto dof : nodes)
         opened(dof) += way * (push(dof) > 0. ? 1. : 0.);
       opened.compress(dealii::VectorOperation::add);
@@ -196,7 +197,7 @@ namespace
         ContactSolver<2>(blocks.contact, blocks.constraints, blocks.problem())
             .solve(blocks.u);
     expect(result.converged(), "penalty: " + result.explanation);
-    const PairResult<2> pair = blocks.contact.pair_results()[0];
+    const PairResult<2> pair = blocks.contact.results().pairs()[0];
     return pair.penetration / pair.pressure;
   }
 
@@ -219,7 +220,7 @@ namespace
         ContactSolver<2>(blocks.contact, blocks.constraints, blocks.problem())
             .solve(blocks.u);
     expect(result.converged()
-               && blocks.contact.penetration()
+               && blocks.contact.results().measures().penetration
                       <= 1e-4 * method.options.gap_tolerance,
            "length scale: " + result.explanation);
     expect(blocks.contact.length_scale(blocks.u) == 1e-4,
@@ -279,12 +280,12 @@ namespace
     blocks.constraints.distribute(there);
     there -= blocks.u;
     expect(there.linfty_norm() <= 1e-15, "prescribed values in the answer");
-    expect(
-        std::abs(std::abs(blocks.contact.pair_results()[0].secondary_force[1])
-                     / exact_pressure()
-                 - 1.)
-            <= 1e-5,
-        "prescribed values: force");
+    expect(std::abs(
+               std::abs(blocks.contact.results().pairs()[0].secondary_force[1])
+                   / exact_pressure()
+               - 1.)
+               <= 1e-5,
+           "prescribed values: force");
   }
 
   /** Times in eighths: two steps asked for, the first fails twice. */

@@ -78,13 +78,13 @@ namespace
     blocks.prepare({blocks.pair()});
     ContactAssembler<2> &contact = blocks.contact();
     contact.detect(blocks.displacement());
-    const double before = contact.pair_checks().at(0).covered_area;
+    const double before = contact.checks().pairs().at(0).covered_area;
     expect(before > 0.2 && before < 0.5, "a third of the surface covered");
-    expect(contact.check_penetration(blocks.displacement(), 1e-6).empty(),
+    expect(contact.checks().penetrations(blocks.displacement(), 1e-6).empty(),
            "no penetration at rest");
 
     const la::Vector moved = blocks.displacement(-0.3);
-    const auto found = contact.check_penetration(moved, 1e-6);
+    const auto found = contact.checks().penetrations(moved, 1e-6);
     expect(!found.empty(), "nodes found after the motion");
     for (const auto &node : found)
     {
@@ -96,9 +96,9 @@ namespace
     }
 
     contact.detect(moved);
-    expect(contact.pair_checks().at(0).covered_area > before,
+    expect(contact.checks().pairs().at(0).covered_area > before,
            "a reach that follows the motion");
-    expect(contact.check_penetration(moved, 1e-6).empty(),
+    expect(contact.checks().penetrations(moved, 1e-6).empty(),
            "rows at all penetrating nodes");
   }
 
@@ -118,10 +118,11 @@ namespace
       ContactAssembler<2> &contact = blocks.contact();
       contact.detect(blocks.displacement());
       const std::string name = discretisation_name(discretisation);
-      expect(
-          contact.check_penetration(blocks.displacement(-0.05), 1e-6).empty(),
-          name + ": no misses where all nodes have rows");
-      const double depth = contact.pair_results().at(0).between_rows;
+      expect(contact.checks()
+                 .penetrations(blocks.displacement(-0.05), 1e-6)
+                 .empty(),
+             name + ": no misses where all nodes have rows");
+      const double depth = contact.results().pairs().at(0).between_rows;
       expect(std::abs(depth - 0.05) < 1e-12,
              name + ": depth of the primary's nodes, " + std::to_string(depth));
     }
@@ -143,7 +144,7 @@ namespace
       if (height > 0.)
         blocks.lift_supports(height == 0.01 ? 0.01 : 0.02);
       contact.detect(rest);
-      const la::Vector gap = contact.gap();
+      const la::Vector gap = contact.results().gap();
       const double largest = gap.linfty_norm();
       expect(std::abs(largest - height) < 1e-12,
              "a gap of " + std::to_string(height) + " and not "

@@ -126,11 +126,11 @@ namespace
                       {"interface", "displacement", "not a number"});
     contact.detect(blocks.displacement());
     throws_everywhere("NaN in the displacement of the check",
-                      [&] { contact.check_penetration(u, 1e-6); },
+                      [&] { contact.checks().penetrations(u, 1e-6); },
                       {"interface", "displacement", "not a number"});
     // Nothing is left behind.
     contact.detect(blocks.displacement());
-    expect(contact.n_rows() > 0, "rows after the errors");
+    expect(contact.results().measures().n_rows > 0, "rows after the errors");
   }
 
   /** The plane y = 0, on all ranks but one. */
@@ -262,7 +262,7 @@ namespace
         {
           blocks.contact().solve(blocks.stiffness(), residual, increment);
           expect(!blocks.contact().update(increment), "an end after NaN");
-          throw std::runtime_error(blocks.contact().explanation());
+          throw std::runtime_error(blocks.contact().iteration().explanation);
         },
         {});
   }

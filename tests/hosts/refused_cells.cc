@@ -179,7 +179,7 @@ namespace
     method.kinematics = ABUT_KINEMATICS_CURRENT;
     Cube cube(quadratic);
     cube.detect(method);
-    good = good && cube.contact.n_rows() > 0;
+    good = good && cube.contact.results().measures().n_rows > 0;
   }
 } // namespace
 

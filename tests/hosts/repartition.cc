@@ -97,7 +97,8 @@ namespace
                         MPI_COMM_WORLD),
         status(pressure);
     // Copied, because a temporary would be moved, and the ghosts be lost.
-    const la::Vector p = contact.pressure(), s = contact.status();
+    const la::Vector p = contact.results().pressure(),
+                     s = contact.results().status();
     pressure = p;
     status = s;
     std::vector<double> mine;
@@ -204,7 +205,7 @@ namespace
     {
       const std::string step = name + ", weight " + std::to_string(cut.weight)
                                + (cut.refine ? ", refined: " : ": ");
-      const PairResult<dim> old = contact.pair_results().at(0);
+      const PairResult<dim> old = contact.results().pairs().at(0);
       const auto old_owners = owners(blocks.dof_handler());
       const auto before = nodes(blocks.dof_handler(), contact);
       // Swapped, because Tpetra vectors of deal.II 9.8 have no move assignment:
@@ -218,7 +219,7 @@ namespace
 
       contact.detect(u);
       const auto after = nodes(blocks.dof_handler(), contact);
-      const PairResult<dim> carried = contact.pair_results().at(0);
+      const PairResult<dim> carried = contact.results().pairs().at(0);
       if (!cut.refine || !has_points)
         compare<dim>(before, after, step);
       if (cut.refine)
@@ -231,7 +232,7 @@ namespace
       }
 
       const hosts::Errors warm = blocks.solve(u);
-      const PairResult<dim> now = contact.pair_results().at(0);
+      const PairResult<dim> now = contact.results().pairs().at(0);
       expect(warm.reason == ABUT_REASON_CONVERGED, step + "convergence");
       line << "; weight " << cut.weight << (cut.refine ? ", refined" : "")
            << ": " << moved[0] << " + " << moved[1] << " cells moved, "
@@ -249,11 +250,11 @@ namespace
         refined = warm;
     }
 
-    const PairResult<dim> last = contact.pair_results().at(0);
+    const PairResult<dim> last = contact.results().pairs().at(0);
     blocks.forget();
     u = blocks.start();
     const hosts::Errors cold = blocks.solve(u);
-    const PairResult<dim> alone = contact.pair_results().at(0);
+    const PairResult<dim> alone = contact.results().pairs().at(0);
     line << "; refined, without transfer: " << cold.steps
          << " systems, forces differ by " << difference(alone, last);
     expect(refined.steps < cold.steps, name + ": as many systems as without");

@@ -41,13 +41,13 @@ namespace
     blocks.contact().set_parameters(run.method, solver);
     la::Vector u = blocks.start();
     blocks.solve(u);
-    const PairResult<dim> result = blocks.contact().pair_results()[0];
+    const PairResult<dim> result = blocks.contact().results().pairs()[0];
     Answer answer;
     answer.displacement = u;
     answer.ratio = result.friction_force / result.normal_force;
     answer.n_slipping = result.n_slipping;
     answer.n_active = result.n_active;
-    answer.reason = blocks.contact().reason();
+    answer.reason = blocks.contact().iteration().reason;
     return answer;
   }
 

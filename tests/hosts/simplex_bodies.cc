@@ -162,7 +162,7 @@ namespace
     expect(result.converged(), name + ": " + result.explanation.text);
     const double F = 0.95, e = 0.5 * (F * F - 1.);
     const double exact = -F * e * (dim == 3 ? 1000. : 1000. / (1. - 0.3 * 0.3));
-    expect_near(contact.pair_results()[0].secondary_force.norm(), exact,
+    expect_near(contact.results().pairs()[0].secondary_force.norm(), exact,
                 1e-8 * exact, name + ": force");
   }
 
@@ -223,7 +223,7 @@ namespace
     SlotAnswer answer;
     answer.u = host.zero();
     expect(host.solve(contact, answer.u).converged(), "slot: no answer");
-    const PairResult<dim> result = contact.pair_results()[0];
+    const PairResult<dim> result = contact.results().pairs()[0];
     answer.force = result.secondary_force.norm();
     answer.n_active = result.n_active;
     return answer;
@@ -293,7 +293,7 @@ namespace
                   against<3>(plane<3>(at(0., 0., 0.95), at(0., 0., -1.))));
     la::Vector u = host->zero();
     expect(host->solve(contact, u).converged(), "plate: no answer");
-    expect_near(contact.pair_results()[0].secondary_force.norm(), 50., 1e-9,
+    expect_near(contact.results().pairs()[0].secondary_force.norm(), 50., 1e-9,
                 "plate, degree " + std::to_string(degree));
   }
 
@@ -312,7 +312,7 @@ namespace
     host->prepare(contact, MethodParameters(), against<3>(ball));
     la::Vector u = host->zero();
     expect(host->solve(contact, u).converged(), "ball: no answer");
-    (void)contact.examine(u);
+    (void)contact.checks().examine(u);
     constexpr unsigned int n = 20;
     std::vector<Point<2>> points;
     for (unsigned int i = 0; i <= n; ++i)
@@ -339,7 +339,7 @@ namespace
                                                     + motion[q]));
         }
     expect(depth > 0., "a facet that the ball is in");
-    const double found = contact.pair_results()[0].between_rows;
+    const double found = contact.results().pairs()[0].between_rows;
     expect_near(found, depth, 0.1 * depth,
                 "ball in facets of degree " + std::to_string(degree));
   }

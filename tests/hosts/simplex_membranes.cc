@@ -126,9 +126,9 @@ namespace
                        { return x[0] < 1e-9 || x[0] > 1. - 1e-9 ? 0 : 2; });
     string.assemble(8., 0.);
     string.solve(0.25, {});
-    const double force = string.contact.contact_force();
+    const double force = string.contact.results().measures().force;
     Vector<float> depth;
-    string.contact.missed_depth(string.u, depth);
+    string.contact.checks().missed_depth(string.u, depth);
     std::cout << "force " << force << ", obstacle inside cells by "
               << depth.linfty_norm() << std::endl;
     hosts::expect(depth.linfty_norm() < 1e-9, "an obstacle outside of cells");
@@ -144,7 +144,7 @@ namespace
                       });
     block.assemble(0., 3.);
     block.solve(0.5, {1});
-    const la::Vector pressure = block.contact.pressure();
+    const la::Vector pressure = block.contact.results().pressure();
     double error = 0.;
     unsigned int n = 0;
     for (const auto &[dof, x] :

@@ -100,7 +100,7 @@ namespace
     { good = hosts::is_at_most(value, 1e-9, name + ": " + what) && good; };
     check(blocks.solve(u).reason == ABUT_REASON_CONVERGED ? 0. : 1.,
           "failure to converge");
-    const PairResult<3> result = blocks.contact().pair_results()[0];
+    const PairResult<3> result = blocks.contact().results().pairs()[0];
     check(result.n_slipping == result.n_active ? 0. : 1., "stick");
     check(std::abs(result.friction_force / result.normal_force / mu - 1.),
           "friction other than mu times the pressure");
@@ -122,19 +122,19 @@ namespace
     la::Vector u = written.start();
     written.solve(u);
     written.contact().commit(u);
-    written.contact().save(file);
+    written.contact().state().save(file);
     computed.prepare({computed.pair()});
     la::Vector v = computed.start();
     computed.solve(v);
     read.prepare({read.pair()});
     std::istringstream stream(
         hosts::MPI::broadcast(MPI_COMM_WORLD, file.str()));
-    read.contact().load(stream);
+    read.contact().state().load(stream);
     read.contact().detect(v);
-    const la::Vector exact = computed.contact().pressure();
-    la::Vector difference = read.contact().pressure();
+    const la::Vector exact = computed.contact().results().pressure();
+    la::Vector difference = read.contact().results().pressure();
     difference -= exact;
-    const PairResult<3> result = computed.contact().pair_results()[0];
+    const PairResult<3> result = computed.contact().results().pairs()[0];
     const std::string name = mesh + ", history: ";
     good =
         hosts::is_at_most(difference.linfty_norm(), 1e-9 * exact.linfty_norm(),

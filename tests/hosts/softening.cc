@@ -58,7 +58,7 @@ namespace
           0.5 * (low + high);
     const double exact = softening[0].uniaxial(low);
     const double force =
-        std::abs(blocks.contact.pair_results()[0].secondary_force[1]);
+        std::abs(blocks.contact.results().pairs()[0].secondary_force[1]);
     if (hosts::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "beyond the peak: " << result.n_steps << " linearisations, "
                 << result.n_negative_steps << " of them not positive, force "

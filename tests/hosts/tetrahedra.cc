@@ -83,7 +83,7 @@ public:
     abut::ContactSolver<dim> solver(contact, constraints, problem);
     const abut::NewtonResult result = solver.solve(solution);
     AssertThrow(result.converged(), ExcMessage(result.explanation));
-    return contact.pair_results()[0].secondary_force.norm();
+    return contact.results().pairs()[0].secondary_force.norm();
   }
 
   std::string linear_solver() const

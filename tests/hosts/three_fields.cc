@@ -151,7 +151,7 @@ namespace
       AssertThrow(error <= 1e-11, ExcMessage("no convergence"));
       contact.follow(solution);
       contact.commit(solution);
-      force = contact.pair_results()[0].secondary_force;
+      force = contact.results().pairs()[0].secondary_force;
       // end of contact
       return n;
     }

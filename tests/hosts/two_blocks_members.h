@@ -126,7 +126,7 @@ namespace abut::hosts
     la::Vector displacement(owned_, relevant_, communicator_),
         pressure(displacement);
     // Copied, because a temporary would be moved, and the ghosts be lost.
-    const la::Vector present = contact_.pressure();
+    const la::Vector present = contact_.results().pressure();
     displacement = u;
     pressure = present;
     if (refine)
@@ -152,7 +152,7 @@ namespace abut::hosts
     transfer.interpolate(targets);
     constraints_.distribute(moved);
     forget();
-    contact_.set_pressure(p);
+    contact_.state().set_pressure(p);
     return moved;
   }
 
@@ -444,8 +444,8 @@ namespace abut::hosts
   {
     la::Vector ghosted(owned_, relevant_, communicator_);
     ghosted = u;
-    const auto results = contact_.pair_results();
-    errors.reason = contact_.reason();
+    const auto results = contact_.results().pairs();
+    errors.reason = contact_.iteration().reason;
     errors.area = results[0].covered_area;
     errors.force = results[0].secondary_force.norm();
     errors.imbalance = results[0].force_imbalance;
@@ -511,7 +511,8 @@ namespace abut::hosts
   template <int dim, class Mesh>
   void TwoBlocks<dim, Mesh>::measure_pressure(Errors &errors) const
   {
-    const la::Vector p = contact_.pressure(), status = contact_.status();
+    const la::Vector p = contact_.results().pressure(),
+                     status = contact_.results().status();
     const double mean = mean_pressure(errors);
     la::Vector pressure(owned_, relevant_, communicator_), has(pressure);
     pressure = p;

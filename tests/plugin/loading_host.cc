@@ -89,9 +89,9 @@ namespace
         u += increment;
         constraints.distribute(u);
       } while (contact.update(u));
-      if (contact.reason() != ABUT_REASON_CONVERGED)
-        throw std::runtime_error(contact.explanation());
-      return contact.contact_force();
+      if (contact.iteration().reason != ABUT_REASON_CONVERGED)
+        throw std::runtime_error(contact.iteration().explanation);
+      return contact.results().measures().force;
     }
 
   private:

@@ -254,7 +254,7 @@ Indentation::solve()
 {
   const TimerOutput::Scope scope(timer, "solve");
   contact->reinit(mapping, dof_handler, constraints);
-  contact->set_pressure(pressure);
+  contact->state().set_pressure(pressure);
   abut::HostProblem problem;
   problem.residual = [&](const la::Vector &at, la::Vector &residual)
   { assemble(at, nullptr, &residual); };
@@ -271,7 +271,7 @@ Indentation::solve()
   contact->assume_constant_matrix(!settings.fresh);
   result = solver.solve(u);
   AssertThrow(result.converged(), ExcMessage(result.explanation));
-  pressure = contact->pressure();
+  pressure = contact->results().pressure();
 }
 
 void
@@ -309,8 +309,8 @@ Indentation::refine()
 void
 Indentation::report(const unsigned int cycle) const
 {
-  const abut::PairResult<3> pair = contact->pair_results()[0];
-  const double gap = contact->complementarity();
+  const abut::PairResult<3> pair = contact->results().pairs()[0];
+  const double gap = contact->results().measures().complementarity;
   auto times = timer.get_summary_data(TimerOutput::total_cpu_time);
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
     return;

@@ -27,16 +27,17 @@ namespace Step41
       ++n_steps;
     } while (contact.update(solution));
     std::cout << std::setprecision(12) << n_steps
-              << " steps, size of active set: " << contact.n_active()
-              << ", contact force: " << contact.contact_force()
+              << " steps, size of active set: "
+              << contact.results().measures().n_active
+              << ", contact force: " << contact.results().measures().force
               << ", unknowns: " << dof_handler.n_dofs() << ". "
-              << contact.explanation() << std::endl;
+              << contact.iteration().explanation << std::endl;
 
-    const TrilinosWrappers::MPI::Vector status = contact.status();
+    const TrilinosWrappers::MPI::Vector status = contact.results().status();
     for (unsigned int i = 0; i < dof_handler.n_dofs(); ++i)
       if (status(i) == 1.)
         active_set.add_index(i);
-    contact_force = contact.pressure();
+    contact_force = contact.results().pressure();
     output_results(0);
   }
 } // namespace Step41

@@ -197,7 +197,8 @@ private:
     contact.set_pairs({pair});
     contact.assume_constant_matrix(true); // contact: linear materials only
     contact.reinit(mapping, dof_handler, constraints);
-    contact.set_pressure(pressure); // contact: from the coarser mesh, or 0
+    contact.state().set_pressure(
+        pressure); // contact: from the coarser mesh, or 0
     contact.detect(u);
     report_warnings();
     la::Vector increment(owned, MPI_COMM_WORLD);
@@ -210,20 +211,22 @@ private:
       constraints.distribute(u);
       ++n_steps;
     } while (contact.update(u)); // contact: instead of a test of the residual
-    AssertThrow(contact.reason() == ABUT_REASON_CONVERGED,
-                ExcMessage(contact.explanation()));
+    AssertThrow(contact.iteration().reason == ABUT_REASON_CONVERGED,
+                ExcMessage(contact.iteration().explanation));
     // contact: whether bodies have met where no constraint was
     AssertThrow(
-        contact.check_penetration(u, 1e-3 * contact.length_scale(u)).empty(),
+        contact.checks()
+            .penetrations(u, 1e-3 * contact.length_scale(u))
+            .empty(),
         ExcMessage("Nodes penetrate without a constraint: use a larger reach"));
-    pressure = contact.pressure();
+    pressure = contact.results().pressure();
   }
 
   /** contact: what looks wrong before anything is solved. */
   void report_warnings() const
   {
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      for (const abut::PairCheck &check : contact.pair_checks())
+      for (const abut::PairCheck &check : contact.checks().pairs())
         for (const abut::Message &warning : check.warnings)
           std::cerr << warning.text << std::endl;
   }
@@ -249,7 +252,7 @@ private:
 
   void report(const unsigned int cycle) const
   {
-    const abut::PairResult<dim> result = contact.pair_results()[0];
+    const abut::PairResult<dim> result = contact.results().pairs()[0];
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "cycle " << cycle << ": " << dof_handler.n_dofs()
                 << " unknowns, " << result.n_active << " of " << result.n_rows

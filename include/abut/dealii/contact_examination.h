@@ -61,7 +61,7 @@ namespace abut
     std::string text;
   };
 
-  /** Measures of ContactAssembler::examine(). The same on all ranks. */
+  /** Measures of ContactChecks::examine(). The same on all ranks. */
   struct ContactExamination
   {
     /** Largest magnitude of a principal small strain at points of quadrature; 0

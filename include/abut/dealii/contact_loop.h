@@ -14,7 +14,7 @@
 namespace abut
 {
   /** Solve and update in turn, from @p u until the iteration stops;
-   * ContactAssembler::reason() reports whether with an answer. To be called
+   * ContactAssembler::iteration() reports whether with an answer. To be called
    * after detect(u) or linearise(u). If something throws, @p u is as far as it
    * went. Hanging nodes are left to the caller. Collective.
    * @param residual writes internal minus external forces at its first argument

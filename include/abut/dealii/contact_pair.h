@@ -131,14 +131,15 @@ namespace abut
     double penetration = 0.;  /**< largest, length >= 0; of a tie the largest
                                    opening in any direction */
     /** How deep nodes of the primary are in the secondary between rows that
-     * hold it, length >= 0, by the last check_penetration(): what the
+     * hold it, length >= 0, by the last ContactChecks::penetrations(): what the
      * discretisation does not see. Large where the secondary is coarser. At an
      * obstacle: its depth in facets between their nodes, by the last examine().
      */
     double between_rows = 0.;
     /** How deep nodes of the secondary are in the other side that supports
      * hold along the normal and that have no row therefore, length >= 0, by
-     * the last check_penetration(): what contact would have to move. */
+     * the last ContactChecks::penetrations(): what contact would have to move.
+     */
     double held_inside = 0.;
     /** Largest tangential motion of the two sides of a closed row against each
      * other, of bodies, or of the body at an obstacle, length >= 0, by the last

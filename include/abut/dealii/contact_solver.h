@@ -74,7 +74,7 @@ namespace abut
     }
 
     /** Solve from the displacement @p u and from the pressures of the last
-     * solve or of ContactAssembler::set_pressure(). Prescribed values come into
+     * solve or of ContactState::set_pressure(). Prescribed values come into
      * @p u at once if the problem is linear, else with the first increment.
      * Where it does not converge, @p u is the last iterate and the result has
      * the cause; exceptions are those of detect() and of the host's functions.
@@ -306,7 +306,7 @@ namespace abut
       if (parameters_.useless_imbalance == 0.)
         return true;
       find_residual(u);
-      const double part = contact_.imbalance(residual_);
+      const double part = contact_.checks().imbalance(residual_);
       if (part <= parameters_.useless_imbalance)
         return true;
       return stop(NewtonReason::unbalanced,
@@ -443,12 +443,13 @@ namespace abut
           [&](const LinearReport &cost, const la::Vector &increment)
           { note(cost, increment); });
       constraints_.distribute(u);
-      if (contact_.reason() != ABUT_REASON_CONVERGED)
+      const IterationReport report = contact_.iteration();
+      if (report.reason != ABUT_REASON_CONVERGED)
         return stop(NewtonReason::contact,
                     "The contact iteration ended without an answer after "
-                        + std::to_string(contact_.progress().step)
-                        + " steps: " + contact_.explanation(),
-                    contact_.failure());
+                        + std::to_string(report.progress.step)
+                        + " steps: " + report.explanation,
+                    report.failure);
       return true;
     }
 
@@ -540,7 +541,7 @@ namespace abut
     void find_round_off(const Tangent &tangent, Scales &scales)
     {
       constexpr double round_off = 1e-14;
-      const ForceSize size = contact_.size_of_forces(tangent, trial_);
+      const ForceSize size = contact_.checks().size_of_forces(tangent, trial_);
       scales.round_off = round_off * size.norm;
       scales.round_off_of_energy = round_off * size.energy;
     }
@@ -584,7 +585,7 @@ namespace abut
       else if (at_start)
       {
         forces_ = 0.;
-        contact_.add_contact_forces(forces_);
+        contact_.results().add_forces(forces_);
       }
       else
         return;
@@ -769,7 +770,7 @@ namespace abut
     std::string about_sliding(const la::Vector &u)
     {
       constexpr double too_far = 0.25;
-      for (const StepMotion &pair : contact_.step_motion(goal(u)))
+      for (const StepMotion &pair : contact_.checks().step_motion(goal(u)))
         if (pair.stays && pair.facet > 0. && pair.slip > too_far * pair.facet)
           return " Bodies have slid on each other by "
                  + short_number(pair.slip / pair.facet)
@@ -806,7 +807,7 @@ namespace abut
     bool stop_astray(const NewtonReason reason, const std::string &seen,
                      const la::Vector &u)
     {
-      const std::string jumps = in_words(contact_.partner_changes());
+      const std::string jumps = in_words(contact_.checks().partner_changes());
       return stop(reason,
                   seen + about_negative_steps() + about_sliding(u) + jumps,
                   jumps.empty() ? ABUT_FAILURE_NEWTON : ABUT_FAILURE_PARTNERS);
@@ -821,7 +822,7 @@ namespace abut
       if (length == 0.)
         return false;
       const std::vector<Penetration<dim>> missed =
-          contact_.check_penetration(u, parameters_.missed_depth * length);
+          contact_.checks().penetrations(u, parameters_.missed_depth * length);
       if (missed.empty())
         return false;
       if (events_.missed)

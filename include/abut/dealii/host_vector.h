@@ -239,7 +239,7 @@ namespace abut::la
                                to.get_mpi_communicator());
   }
 
-  /** Copy a vector of Abut's, as ContactAssembler::pressure() returns it, into
+  /** Copy a vector of Abut's, as ContactResults::pressure() returns it, into
    * one of a host's with the same entries on each rank, or the first of them.
    */
   inline void copy(const Vector &from, const MutableVectorView &to)

@@ -134,7 +134,7 @@ namespace abut
 
     /** Whether pairs that are known to fail, with a code ABUT-F.., are solved
      * where they would be refused, to measure how they fail;
-     * ContactAssembler::examine() then has an error with the code. Not a
+     * ContactChecks::examine() then has an error with the code. Not a
      * parameter of the section. */
     bool solve_known_failures = false;
 

@@ -48,7 +48,7 @@ namespace abut::app
     const la::Vector *contact_traction = nullptr;
     /** Boundary ids of the secondary sides, with the nodal fields p n (n:
      * outward normal) and g, the latter in each component, as
-     * ContactAssembler::pressure() and gap() make them; null: without the two
+     * ContactResults::pressure() and gap() make them; null: without the two
      * terms that they make. */
     std::set<dealii::types::boundary_id> secondary = {};
     const la::Vector *pressure = nullptr;

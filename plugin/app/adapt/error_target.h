@@ -70,7 +70,7 @@ namespace abut::app
    * falls like e^2, so that it is the last change times q / (1 - q), q = r^2 /
    * r_0^2.
    *
-   * Contact: see ContactAssembler::complementarity_error(). In the force it
+   * Contact: see ContactMeasures::complementarity_error. In the force it
    * counts squared, being of the order of an energy.
    *
    * Linear systems: what was left of the last increment, and the tolerance

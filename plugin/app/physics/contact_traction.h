@@ -34,7 +34,7 @@ namespace abut::app
    * @param contact ids of the contact boundaries
    * @param force contact force at the unknowns, owned entries: internal minus
    * external forces in equilibrium; not read at constrained unknowns
-   * @param status states of the rows by unknown (ContactAssembler::status()),
+   * @param status states of the rows by unknown (ContactResults::status()),
    * or null: not known
    * @return the field with ghosts, 0 off the contact boundaries.
    *

@@ -27,7 +27,7 @@ namespace abut::app
     dealii::Point<2> place; /**< of the reference configuration */
     double pressure = 0.;   /**< > 0: compression */
     double gap = 0.;        /**< > 0: open; NaN where there is no row */
-    double status = 0.;     /**< as ContactAssembler::status() */
+    double status = 0.;     /**< as ContactResults::status() */
     /** Traction on the body along the line, towards its end; 0 unless it is
      * asked for. */
     double friction = 0.;
@@ -42,10 +42,10 @@ namespace abut::app
   struct ContactLineFields
   {
     const la::Vector &traction; /**< force per area on the body */
-    /** As mark_rows() and ContactAssembler::status(); null: 0. */
+    /** As mark_rows() and ContactResults::status(); null: 0. */
     const la::Vector *gap;
     const la::Vector *status;
-    /** ContactAssembler::slip() where the traction has a part along the line.
+    /** ContactResults::slip() where the traction has a part along the line.
      * Null: it has none, and its length is the pressure, whatever the normals
      * of facets. */
     const la::Vector *slip = nullptr;

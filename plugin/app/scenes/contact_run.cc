@@ -120,7 +120,8 @@ namespace abut::app
     model.problem().constraints.set_zero(residual);
     try
     {
-      state.contact.check_supports(model.problem().tangent(nothing), residual);
+      state.contact.checks().supports(model.problem().tangent(nothing),
+                                      residual);
     }
     catch (const SolverFailure &failure)
     {
@@ -170,14 +171,14 @@ namespace abut::app
       state.contact.reinit(problem.mapping, problem.dof_handler,
                            problem.constraints);
       if (pressure != nullptr)
-        state.contact.set_pressure(*pressure);
+        state.contact.state().set_pressure(*pressure);
       model.prepare_contact(state.contact);
       contact_is_ready = true;
       if (model.has_inertia())
       {
         // What begins with a displacement has been there all the time.
         model.set_contact(state.contact, state.load_steps.time());
-        state.contact.set_committed(model.last_place());
+        state.contact.state().set_committed(model.last_place());
       }
     }
     model.set_contact(state.contact, state.present.time);
@@ -262,11 +263,11 @@ namespace abut::app
     if (is_starting)
       return;
     ContactResult &present = state.present;
-    count_layers(state.contact.progress().n_active);
+    count_layers(state.contact.iteration().progress.n_active);
     present.linear += cost;
     present.steps += cost.n_systems;
-    steps.add(report, present.level, present.steps, state.contact.progress(),
-              cost);
+    steps.add(report, present.level, present.steps,
+              state.contact.iteration().progress, cost);
     if (state.control.is_on())
       state.control.note_step(model.problem().energy_norm(increment),
                               cost.tolerance);
@@ -291,12 +292,12 @@ namespace abut::app
     // A load that passes zero leaves round-off of those before.
     const double small =
         std::max(model.small_force(), round_off_of_loads * largest_load);
-    const double result = state.contact.imbalance(residual, small);
+    const ContactChecks<dim> &checks = state.contact.checks();
+    const double result = checks.imbalance(residual, small);
     // The first touch of bodies in flight is as soft as chance will have it:
     // what solvers promise is a part of all forces that there are.
-    return model.has_inertia()
-               ? std::min(result, state.contact.imbalance(residual))
-               : result;
+    return model.has_inertia() ? std::min(result, checks.imbalance(residual))
+                               : result;
   }
 
   template <int dim> bool ContactRun<dim>::is_balanced(Message &why)
@@ -305,16 +306,17 @@ namespace abut::app
       return true;
     la::Vector residual = model.problem().vector();
     model.residual(state.u, residual);
+    const ContactChecks<dim> &checks = state.contact.checks();
     const SolvedBy by = {
         !model.problem().is_linear(),
         state.present.linear.method.compare(0, 6, "direct") == 0,
-        state.contact.imbalance(
+        checks.imbalance(
             residual,
-            state.contact.size_of_forces(model.problem().stiffness, state.u)
-                .norm)
+            checks.size_of_forces(model.problem().stiffness, state.u).norm)
             <= round_off_of_forces};
     return diagnose_balance(report, imbalance(residual),
-                            state.contact.progress().penalty, by, why);
+                            state.contact.iteration().progress.penalty, by,
+                            why);
   }
 
   template <int dim> Message ContactRun<dim>::refuse(const unsigned int search)
@@ -325,7 +327,8 @@ namespace abut::app
     const bool is_cold = !state.settings.refinement.nested && search == 1
                          && state.load_steps.n_accepted() == 0
                          && abut_law_solves_once(state.method.options.law);
-    diagnose_iteration(report, state.contact.progress(), is_cold, n_layers);
+    diagnose_iteration(report, state.contact.iteration().progress, is_cold,
+                       n_layers);
     return is_balanced(why) ? Message() : why;
   }
 
@@ -335,16 +338,17 @@ namespace abut::app
     if (model.has_inertia()
         && result.explanation.failure == ABUT_FAILURE_FLOATING_BODY)
       return coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes);
+    const IterationReport contact = state.contact.iteration();
     switch (result.reason)
     {
     case NewtonReason::contact:
-      return coded(state.contact.failure(),
+      return coded(contact.failure,
                    "The contact iteration ended without an answer after "
                        + std::to_string(state.present.steps)
-                       + " steps: " + state.contact.explanation());
+                       + " steps: " + contact.explanation);
     case NewtonReason::linear_solve:
       return diagnose_solver_failure(model.with_names(result.explanation),
-                                     state.contact.progress().penalty);
+                                     contact.progress.penalty);
     default:
       return coded(result.explanation.failure,
                    uncoded(model.with_names(result.explanation)));
@@ -512,7 +516,8 @@ namespace abut::app
       if (step == ErrorTarget::Step::refine)
         break;
       if (model.has_contact())
-        pressure = std::make_shared<const la::Vector>(state.contact.pressure());
+        pressure = std::make_shared<const la::Vector>(
+            state.contact.results().pressure());
       contact_is_ready = false;
       if (!solve())
         return false;
@@ -647,7 +652,8 @@ namespace abut::app
     {
       fields = {problem.ghosted(state.u)};
       if (model.has_contact())
-        fields.push_back(problem.ghosted_field(state.contact.pressure()));
+        fields.push_back(
+            problem.ghosted_field(state.contact.results().pressure()));
       fields = refine_mesh<dim>(
           model.triangulation, problem.dof_handler, fields,
           [this] { setup_mesh(); }, report.times);
@@ -666,7 +672,7 @@ namespace abut::app
     DiscreteProblem<dim> &problem = model.problem();
     std::vector<la::Vector> fields = {state.u};
     if (model.has_contact())
-      fields.push_back(state.contact.pressure());
+      fields.push_back(state.contact.results().pressure());
     std::vector<unsigned int> origin;
     std::unique_ptr<SimplexTransfer<dim>> transfer;
     {

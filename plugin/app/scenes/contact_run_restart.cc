@@ -51,7 +51,7 @@ namespace abut::app
       return;
     }
     std::ostringstream preconditioner(std::ios::binary);
-    state.contact.save_preconditioner(preconditioner);
+    state.contact.state().save_preconditioner(preconditioner);
     marked.preconditioner = preconditioner.str();
   }
 
@@ -92,7 +92,7 @@ namespace abut::app
     std::ostringstream contact(std::ios::binary);
     if (marked.has_contact)
     {
-      state.contact.save(contact);
+      state.contact.state().save(contact);
       load_preconditioner(marked);
     }
     marked.contact = contact.str();
@@ -150,14 +150,14 @@ namespace abut::app
   template <int dim> void ContactRun<dim>::load_contact()
   {
     std::istringstream stream(resumed->contact, std::ios::binary);
-    state.contact.load(stream);
+    state.contact.state().load(stream);
     // A step of a motion has taken the displacement on its way. Without one
     // nothing has moved before the first step.
     la::Vector committed(model.has_inertia() ? model.last_place() : state.u);
     if (state.load_steps.n_accepted() == 0 && !model.has_inertia())
       committed = 0.;
     model.set_contact(state.contact, state.load_steps.time());
-    state.contact.set_committed(committed);
+    state.contact.state().set_committed(committed);
     model.set_contact(state.contact, state.present.time);
     if (state.options.restart->has_same_ranks())
       load_preconditioner(*resumed);
@@ -168,7 +168,7 @@ namespace abut::app
   void ContactRun<dim>::load_preconditioner(const Checkpoint &from)
   {
     std::istringstream stream(from.preconditioner, std::ios::binary);
-    state.contact.load_preconditioner(stream);
+    state.contact.state().load_preconditioner(stream);
   }
 
   template void ContactRun<2>::mark();

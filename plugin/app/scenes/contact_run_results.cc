@@ -31,12 +31,13 @@ namespace abut::app
     evidence.norm = model.solution_norm();
     if (model.has_contact())
     {
+      const ContactMeasures measures = state.contact.results().measures();
       // Nitsche's method is consistent: its gaps are the mesh's error.
       // A user's own law is what it is.
       if (!abut_law_needs_stress(state.method.options.law)
           && state.method.user_law == nullptr)
-        evidence.law = state.contact.complementarity_error();
-      evidence.contact_force = state.contact.contact_force();
+        evidence.law = measures.complementarity_error;
+      evidence.contact_force = measures.force;
     }
     state.present.error_parts = state.control.judge(evidence);
   }
@@ -45,8 +46,9 @@ namespace abut::app
   {
     dealii::Vector<float> depth;
     double largest = 0.;
-    name_parameter(model, [&]
-                   { largest = state.contact.missed_depth(state.u, depth); });
+    name_parameter(
+        model,
+        [&] { largest = state.contact.checks().missed_depth(state.u, depth); });
     if (largest == 0.)
       return;
     double sum = 0.;
@@ -90,7 +92,7 @@ namespace abut::app
       works.open_gaps = *open;
     }
     return diagnose_works(report, works, size_of_cells(),
-                          state.contact.progress().penalty);
+                          state.contact.iteration().progress.penalty);
   }
 
   template <int dim> double ContactRun<dim>::size_of_cells()
@@ -135,8 +137,8 @@ namespace abut::app
     name_parameter(model,
                    [&]
                    {
-                     examination = state.contact.examine(
-                         state.u, nullptr, model.allows_large_strain());
+                     examination = state.contact.checks().examine(
+                         state.u, {}, model.allows_large_strain());
                    });
     std::vector<ContactFinding> &findings = examination.findings;
     for (ContactFinding &finding : findings)
@@ -191,12 +193,13 @@ namespace abut::app
     present.energy = model.energy(state.u);
     if (model.has_contact())
     {
-      present.progress = contact.progress();
-      present.rows = contact.n_rows();
-      present.active = contact.n_active();
-      present.force = contact.contact_force();
-      present.penetration = contact.penetration();
-      const DetectionReport detection = contact.detection_report();
+      present.progress = contact.iteration().progress;
+      const ContactMeasures measures = contact.results().measures();
+      present.rows = measures.n_rows;
+      present.active = measures.n_active;
+      present.force = measures.force;
+      present.penetration = measures.penetration;
+      const DetectionReport detection = contact.results().effort().detection;
       present.detection = detection.since(state.detection);
       state.detection = detection;
     }

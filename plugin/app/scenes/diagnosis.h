@@ -49,7 +49,7 @@ namespace abut::app
    * word. */
   constexpr double visible_imbalance = 1e-6;
 
-  /** Of the balance of forces, see ContactAssembler::imbalance(): whether the
+  /** Of the balance of forces, see ContactChecks::imbalance(): whether the
    * answer may be used; @p failure is then what to say.
    * @param penalty of the law, 0 if none */
   bool diagnose_balance(Report &report, double imbalance, double penalty,

@@ -8,7 +8,7 @@ namespace abut::app
   namespace
   {
     /** Depth between nodes, by the deformation, that an answer can bear: as
-     * ContactAssembler::examine() has it. */
+     * ContactChecks::examine() has it. */
     constexpr double bearable = 0.1;
   } // namespace
 

@@ -87,8 +87,8 @@ namespace abut::app
   void ModelMotion<dim>::end_start(const std::vector<ContactAction> &actions)
   {
     la::Vector contact = problem.vector(), there = problem.vector();
-    run.contact.add_contact_forces(contact);
-    run.contact.add_forces_on_supports(there);
+    run.contact.results().add_forces(contact);
+    run.contact.results().add_forces(there, ForcePart::at_prescribed);
     motion.end_start(contact, there);
     Record &first = records.front();
     for (std::size_t s = 0; s < actions.size(); ++s)
@@ -150,7 +150,7 @@ namespace abut::app
   void
   ModelMotion<dim>::measure_contact(const std::vector<ContactAction> &actions)
   {
-    run.contact.add_forces_on_supports(on_supports);
+    run.contact.results().add_forces(on_supports, ForcePart::at_prescribed);
     for (std::size_t s = 0; s < actions.size(); ++s)
     {
       const ContactAction &action = actions[s];
@@ -161,11 +161,11 @@ namespace abut::app
       if (!action.place.empty())
         present.place[s] = action.place;
     }
-    const double force = run.contact.contact_force();
-    present.bodies.contact_force += force;
+    const ContactMeasures measures = run.contact.results().measures();
+    present.bodies.contact_force += measures.force;
     // Springs of penalties; what is exact has no gap under pressure.
     present.bodies.energy.contact =
-        0.5 * run.contact.complementarity() * std::abs(force);
+        0.5 * measures.complementarity * std::abs(measures.force);
   }
 
   template <int dim>
@@ -264,7 +264,7 @@ namespace abut::app
   Message ModelMotion<dim>::explain_gain(const abut_failure failure,
                                          const std::string &judgement) const
   {
-    const std::vector<PairCheck> checks = run.contact.pair_checks();
+    const std::vector<PairCheck> checks = run.contact.checks().pairs();
     if (const PairCheck *const found = overlap_of(checks))
       return coded(ABUT_FAILURE_OVERLAP,
                    judgement + "The first step made most of it: surfaces of "

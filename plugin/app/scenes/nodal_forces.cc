@@ -22,13 +22,13 @@ namespace abut::app
     {
       contact = 0.;
       if (has_contact)
-        run.contact.add_contact_forces(contact);
+        run.contact.results().add_forces(contact);
     }
     problem.constraints.set_zero(contact);
     if (has_contact)
     {
       la::Vector on_supports = problem.vector();
-      run.contact.add_forces_on_supports(on_supports);
+      run.contact.results().add_forces(on_supports, ForcePart::at_prescribed);
       contact += on_supports;
       reaction -= on_supports;
     }

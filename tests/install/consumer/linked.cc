@@ -21,7 +21,7 @@ main(int argc, char **argv)
   for (const abut::Registry<2> *registry : {&linked, &loaded})
   {
     const auto contact = registry->create("penalty", MPI_COMM_WORLD);
-    if (contact->reason() != ABUT_REASON_NONE)
+    if (contact->iteration().reason != ABUT_REASON_NONE)
       return 1;
   }
   try

@@ -162,7 +162,7 @@ namespace abut::app
 
   template <int dim> la::Vector MembraneModel<dim>::held_nodes() const
   {
-    la::Vector flags = run.contact.status();
+    la::Vector flags = run.contact.results().status();
     double *value = la::data(flags);
     for (int i = 0; i < la::n_owned(flags); ++i)
       value[i] = value[i] > 0. ? 1. : 0.;
@@ -172,7 +172,7 @@ namespace abut::app
     for (int i = 0; i < la::n_owned(flags); ++i)
       value[i] = value[i] > 0.999 ? 1. : 0.;
     flags.compress(dealii::VectorOperation::insert);
-    la::Vector ghosted = membrane.ghosted_field(run.contact.status());
+    la::Vector ghosted = membrane.ghosted_field(run.contact.results().status());
     ghosted = flags;
     return ghosted;
   }
@@ -182,7 +182,8 @@ namespace abut::app
   {
     const la::Vector active = held_nodes();
     const la::Vector solution = membrane.ghosted(run.u);
-    const la::Vector p = membrane.ghosted_field(run.contact.pressure());
+    const la::Vector p =
+        membrane.ghosted_field(run.contact.results().pressure());
     EstimatorInput<dim> input{membrane.mapping, membrane.dof_handler, solution,
                               *load};
     input.coefficient = conductivity.get();
@@ -212,7 +213,7 @@ namespace abut::app
   {
     // Obstacles push up from below and down from above, and gaps are counted
     // from each.
-    const la::Vector gap = run.contact.gap();
+    const la::Vector gap = run.contact.results().gap();
     double sum = 0.;
     for (int i = 0; i < la::n_owned(gap); ++i)
       sum += std::abs(la::data(forces)[i]) * la::data(gap)[i];
@@ -272,8 +273,8 @@ namespace abut::app
 
   template <int dim> la::Vector MembraneModel<dim>::gaps() const
   {
-    la::Vector gap = run.contact.gap();
-    const la::Vector status = run.contact.status();
+    la::Vector gap = run.contact.results().gap();
+    const la::Vector status = run.contact.results().status();
     const auto points =
         versions::support_points(membrane.mapping, membrane.dof_handler);
     for (const auto dof : membrane.dof_handler.locally_owned_dofs())
@@ -299,9 +300,11 @@ namespace abut::app
       return;
     SectionTimes::Scope scope(run.report.times, "output");
     const la::Vector displacement = membrane.ghosted(run.u);
-    const la::Vector p = membrane.ghosted_field(run.contact.pressure());
+    const la::Vector p =
+        membrane.ghosted_field(run.contact.results().pressure());
     const la::Vector g = gaps();
-    const la::Vector status = membrane.ghosted_field(run.contact.status());
+    const la::Vector status =
+        membrane.ghosted_field(run.contact.results().status());
     Fields<dim> fields{membrane.mapping,
                        membrane.dof_handler,
                        {{"displacement", &displacement},
@@ -344,7 +347,7 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::report_check()
   {
-    run.report.set("constraints", run.contact.n_rows());
+    run.report.set("constraints", run.contact.results().measures().n_rows);
     for (const BoundaryPart<dim> &part :
          boundary_parts(this->triangulation, run.communicator))
       run.report.progress(names.describe(part.id) + ": " + in_words(part));
@@ -514,7 +517,7 @@ namespace abut::app
   std::vector<ContactAction> MembraneModel<dim>::contact_actions() const
   {
     la::Vector forces = membrane.vector();
-    run.contact.add_contact_forces(forces);
+    run.contact.results().add_forces(forces);
     double sums[2] = {0., 0.};
     for (int i = 0; i < la::n_owned(forces); ++i)
       sums[la::data(forces)[i] < 0. ? 1 : 0] += la::data(forces)[i];

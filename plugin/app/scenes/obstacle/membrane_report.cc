@@ -52,9 +52,11 @@ namespace abut::app
     la::Vector displacement(u);
     membrane.constraints.distribute(displacement);
     std::vector<NodalColumn> columns = {{"displacement", displacement}};
-    columns.push_back({"pressure", membrane.ghosted_field(contact.pressure())});
+    columns.push_back(
+        {"pressure", membrane.ghosted_field(contact.results().pressure())});
     columns.push_back({"gap", model.gaps()});
-    columns.push_back({"status", membrane.ghosted_field(contact.status())});
+    columns.push_back(
+        {"status", membrane.ghosted_field(contact.results().status())});
     for (NodalColumn &column : force_columns(
              membrane, run, membrane.nodal_forces(u), true,
              model.motion ? &model.motion->bodies().unbalanced_forces()
@@ -114,7 +116,8 @@ namespace abut::app
   {
     SectionTimes::Scope scope(report.times, "output");
     const la::Vector displacement = membrane.ghosted(u);
-    const la::Vector status = membrane.ghosted_field(contact.status());
+    const la::Vector status =
+        membrane.ghosted_field(contact.results().status());
     const Raster raster =
         sample_raster(membrane.mapping, membrane.dof_handler,
                       {{&displacement, false}, {&status, true}}, 160);
@@ -218,8 +221,9 @@ namespace abut::app
     report.set("constraints", last.rows);
     report.set("active", last.active);
     report.set("contact_force", last.force);
-    report.set("max_penetration", contact.penetration());
-    report.set("allowed_penetration", contact.allowed_penetration());
+    const ContactMeasures measures = contact.results().measures();
+    report.set("max_penetration", measures.penetration);
+    report.set("allowed_penetration", measures.allowed_penetration);
     report.set("max_complementarity", last.progress.complementarity);
     report.set("energy", last.energy);
     report.set("search_rebuilds", 0);

@@ -147,7 +147,8 @@ namespace abut::app
     if (solved)
     {
       std::vector<dealii::Tensor<1, dim>> force(parameters.obstacles.size());
-      const std::vector<PairResult<dim>> results = run.contact.pair_results();
+      const std::vector<PairResult<dim>> results =
+          run.contact.results().pairs();
       for (std::size_t p = 0; p < results.size(); ++p)
         if (const auto number = pairs->obstacle_of(p))
           force[*number] -= results[p].secondary_force;

@@ -318,7 +318,7 @@ namespace abut::app
     if (has_warned || !is_last)
       return;
     has_warned = true;
-    for (const PairCheck &check : run.contact.pair_checks())
+    for (const PairCheck &check : run.contact.checks().pairs())
       for (const Message &warning : check.warnings)
         run.report.warn(about(check.name, warning));
   }
@@ -358,7 +358,7 @@ namespace abut::app
       return "";
     for (unsigned int k = 0; k < parts.size() && !motion; ++k)
       if (freedom[k].n_modes > 0
-          && !is_held(parts[k], run.contact.pair_results()))
+          && !is_held(parts[k], run.contact.results().pairs()))
         return coded(
             ABUT_FAILURE_FLOATING_BODY,
             "Nothing holds " + parts[k].name() + ": its supports allow "
@@ -379,7 +379,7 @@ namespace abut::app
   {
     if (pairs->empty())
       return {};
-    const la::Vector status = run.contact.status();
+    const la::Vector status = run.contact.results().status();
     const auto per_area = [&](const la::Vector &force)
     {
       return contact_traction(elasticity.mapping, elasticity.dof_handler,
@@ -394,13 +394,13 @@ namespace abut::app
     la::Vector forces =
         by_pressures ? elasticity.vector() : unbalanced_forces();
     if (by_pressures)
-      run.contact.add_contact_forces(forces);
+      run.contact.results().add_forces(forces);
     const la::Vector traction = per_area(forces);
     la::Vector normal(traction), along;
     if (tells_friction_apart())
     {
       la::Vector pressures = elasticity.vector();
-      run.contact.add_pressure_forces(pressures);
+      run.contact.results().add_forces(pressures, ForcePart::of_pressures);
       normal = per_area(pressures);
       forces -= pressures;
       along = per_area(forces);
@@ -408,12 +408,12 @@ namespace abut::app
     return {traction,
             normal,
             along,
-            elasticity.ghosted_field(run.contact.pressure()),
-            elasticity.ghosted_field(run.contact.gap()),
-            elasticity.ghosted_field(
-                mark_rows(elasticity.dof_handler, run.contact.gap(), status)),
+            elasticity.ghosted_field(run.contact.results().pressure()),
+            elasticity.ghosted_field(run.contact.results().gap()),
+            elasticity.ghosted_field(mark_rows(
+                elasticity.dof_handler, run.contact.results().gap(), status)),
             elasticity.ghosted_field(status),
-            elasticity.ghosted_field(run.contact.slip())};
+            elasticity.ghosted_field(run.contact.results().slip())};
   }
 
   template <int dim>
@@ -462,7 +462,7 @@ namespace abut::app
   {
     if (pairs->has_friction())
       return {};
-    for (const PairResult<dim> &pair : run.contact.pair_results())
+    for (const PairResult<dim> &pair : run.contact.results().pairs())
       work += pair.initial_gap_work;
     return work;
   }
@@ -479,9 +479,10 @@ namespace abut::app
   {
     if (pairs->empty())
       return;
-    flag_contact_border(elasticity.dof_handler,
-                        elasticity.ghosted_field(run.contact.status()),
-                        pairs->secondary());
+    flag_contact_border(
+        elasticity.dof_handler,
+        elasticity.ghosted_field(run.contact.results().status()),
+        pairs->secondary());
     limit_size_ratio(this->triangulation, pairs->sides());
   }
 
@@ -540,7 +541,7 @@ namespace abut::app
   {
     if (pairs->has_friction())
     {
-      for (const PairResult<dim> &pair : run.contact.pair_results())
+      for (const PairResult<dim> &pair : run.contact.results().pairs())
       {
         result.dissipation += pair.dissipation;
         result.friction_force += pair.friction_force;
@@ -559,7 +560,7 @@ namespace abut::app
     if (has_large_strain())
     {
       row["linearisations"] = result.linearisations;
-      const auto results = run.contact.pair_results();
+      const auto results = run.contact.results().pairs();
       for (std::size_t p = 0; p < results.size() && !motion; ++p)
         for (unsigned int d = 0; d < dim; ++d)
           row[force_column(p, d)] = results[p].secondary_force[d];

@@ -33,7 +33,7 @@ namespace abut::app
     if (pairs->empty())
       return {};
     const auto obstacles = pairs->moved_obstacles();
-    const auto results = run.contact.pair_results();
+    const auto results = run.contact.results().pairs();
     std::vector<ContactAction> actions(results.size());
     for (std::size_t p = 0; p < results.size(); ++p)
     {
@@ -54,7 +54,8 @@ namespace abut::app
 
   template <int dim> Message SolidModel<dim>::leaves_points() const
   {
-    const std::vector<StepMotion> motions = run.contact.step_motion(run.u);
+    const std::vector<StepMotion> motions =
+        run.contact.checks().step_motion(run.u);
     for (std::size_t p = 0; p < motions.size(); ++p)
     {
       const StepMotion &pair = motions[p];

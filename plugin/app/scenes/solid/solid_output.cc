@@ -182,12 +182,12 @@ namespace abut::app
       columns.push_back(std::move(column));
     if (has_contact)
       for (const auto &[name, field] :
-           {std::make_pair("gap", model.run.contact.gap()),
-            std::make_pair("status", model.run.contact.status())})
+           {std::make_pair("gap", model.run.contact.results().gap()),
+            std::make_pair("status", model.run.contact.results().status())})
         columns.push_back({name, elasticity.ghosted_field(field), true});
     if (has_contact && model.pairs->has_friction())
-      columns.push_back(
-          {"slip", elasticity.ghosted_field(model.run.contact.slip())});
+      columns.push_back({"slip", elasticity.ghosted_field(
+                                     model.run.contact.results().slip())});
     write_nodal_table(model.run.options.output_folder / "nodal.csv",
                       elasticity.mapping, elasticity.dof_handler, columns);
   }

@@ -118,7 +118,7 @@ namespace abut::app
     if (!pairs.empty())
     {
       la::Vector contact_there = elasticity.vector();
-      contact.add_forces_on_supports(contact_there);
+      contact.results().add_forces(contact_there, ForcePart::at_prescribed);
       forces -= contact_there;
     }
     return forces;
@@ -160,7 +160,7 @@ namespace abut::app
   template <int dim> void SolidReport<dim>::report_checks() const
   {
     unsigned int number = 0;
-    for (const PairCheck &check : contact.pair_checks())
+    for (const PairCheck &check : contact.checks().pairs())
     {
       const std::string key = "pair_" + std::to_string(++number);
       report.set(key + "_facets",
@@ -184,13 +184,13 @@ namespace abut::app
         else
           report.warn(about(check.name, warning));
     }
-    report.set("constraints", contact.n_rows());
+    report.set("constraints", contact.results().measures().n_rows);
   }
 
   template <int dim> void SolidReport<dim>::report_transfer() const
   {
     unsigned int number = 0;
-    for (const double error : contact.transfer_errors(u))
+    for (const double error : contact.checks().transfer_errors(u))
     {
       const std::string key = "pair_" + std::to_string(++number);
       report.set(key + "_transfer_error", error);
@@ -213,7 +213,7 @@ namespace abut::app
       return;
     const la::Vector traction = model.contact_fields().traction;
     unsigned int number = 0;
-    for (const PairResult<dim> &result : contact.pair_results())
+    for (const PairResult<dim> &result : contact.results().pairs())
     {
       const ContactPair<dim> &pair = pairs.pairs().at(number++);
       if (!(result.pressure > 0.))
@@ -258,8 +258,8 @@ namespace abut::app
     unsigned int number = 0;
     double force_imbalance = 0., moment_imbalance = 0.;
     const bool is_large = model.has_large_strain();
-    const std::vector<PairCheck> checks = contact.pair_checks();
-    for (const PairResult<dim> &pair : contact.pair_results())
+    const std::vector<PairCheck> checks = contact.checks().pairs();
+    for (const PairResult<dim> &pair : contact.results().pairs())
     {
       const std::string key = "pair_" + std::to_string(++number);
       const bool has_friction =
@@ -357,10 +357,11 @@ namespace abut::app
     report.set("moment_imbalance", moment_imbalance);
     report.set("method", method.options.law->name);
     report.set("discretisation", discretisation_name(method.discretisation));
-    report.set("contact_force", contact.contact_force());
-    report.set("max_penetration", contact.penetration());
-    report.set("allowed_penetration", contact.allowed_penetration());
-    report.set("max_complementarity", contact.complementarity());
+    const ContactMeasures measures = contact.results().measures();
+    report.set("contact_force", measures.force);
+    report.set("max_penetration", measures.penetration);
+    report.set("allowed_penetration", measures.allowed_penetration);
+    report.set("max_complementarity", measures.complementarity);
   }
 
   template <int dim> void SolidReport<dim>::report_driven() const
@@ -401,8 +402,8 @@ namespace abut::app
     share("dofs", elasticity.dof_handler.n_locally_owned_dofs());
     if (pairs.empty())
       return;
-    const CommunicationReport sent = contact.communication();
-    share("constraints", contact.n_own_rows());
+    const CommunicationReport sent = contact.results().effort().communication;
+    share("constraints", contact.results().measures().n_own_rows);
     share("facets", sent.own_facets);
     share("ghost_facets", sent.ghost_facets);
     report.set("communicated_bytes", MPI::max(sent.bytes, communicator));
@@ -545,20 +546,21 @@ namespace abut::app
     const bool searches = std::any_of(
         pairs.pairs().begin(), pairs.pairs().end(),
         [](const ContactPair<dim> &pair) { return pair.obstacle == nullptr; });
-    report.model("search", searches,
-                 searches ? "facets of bodies for each other: "
-                                + std::to_string(run.n_searches)
-                                + " times, of which "
-                                + std::to_string(run.contact.point_count().kept)
-                                + " had moved too little for other points, and "
-                                  "a check after each solve"
-                          : "gaps to obstacles are formulas: no facet is "
-                            "looked for");
+    report.model(
+        "search", searches,
+        searches
+            ? "facets of bodies for each other: "
+                  + std::to_string(run.n_searches) + " times, of which "
+                  + std::to_string(run.contact.results().effort().points.kept)
+                  + " had moved too little for other points, and "
+                    "a check after each solve"
+            : "gaps to obstacles are formulas: no facet is "
+              "looked for");
     if (method.law_is_automatic && !pairs.empty())
       report.model("automatic law", true, method.options.law->name);
     report.model("friction", pairs.has_friction(),
                  pairs.has_friction()
-                     ? std::to_string(contact.progress().n_slipping)
+                     ? std::to_string(contact.iteration().progress.n_slipping)
                            + " of the points in contact slip, the rest sticks"
                      : "surfaces slide freely on each other");
     const RefinementParameters &refinement = parameters.refinement;
@@ -603,7 +605,7 @@ namespace abut::app
           "those before it; if only it is wanted, Load steps/Steps = 1.");
     if (pairs.empty() || run.results.empty())
       return;
-    for (const PairResult<dim> &pair : contact.pair_results())
+    for (const PairResult<dim> &pair : contact.results().pairs())
       if (pair.n_active == 0)
         report.leave_out(pair.name + ": none of its "
                          + std::to_string(pair.n_rows)

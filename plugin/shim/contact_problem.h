@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_SHIM_CONTACT_IMPLEMENTATION_H
-#define ABUT_SHIM_CONTACT_IMPLEMENTATION_H
+#ifndef ABUT_SHIM_CONTACT_PROBLEM_H
+#define ABUT_SHIM_CONTACT_PROBLEM_H
 
 #include "committed_state.h"
 #include "contact_history.h"
@@ -20,13 +20,29 @@
 #include <map>
 #include <optional>
 
-namespace abut
+namespace abut::shim
 {
+  template <int dim> struct ContactProblem;
+
+  template <int dim>
+  std::unique_ptr<ContactResults<dim>>
+  make_results(const ContactProblem<dim> &problem);
+  template <int dim>
+  std::unique_ptr<ContactChecks<dim>> make_checks(ContactProblem<dim> &problem);
+  template <int dim>
+  std::unique_ptr<ContactState> make_state(ContactProblem<dim> &problem);
+
+  /** See ContactChecks::examine(). */
+  template <int dim>
+  ContactExamination
+  examine(ContactProblem<dim> &problem, const la::VectorView &displacement,
+          const la::VectorView &residual, bool allow_large_strain);
+
   /** The inside of a ContactAssembler: rows, start and strategy of one solve.
    * Where rows come from is the business of a row source. */
-  template <int dim> struct ContactAssembler<dim>::Implementation
+  template <int dim> struct ContactProblem
   {
-    explicit Implementation(const MPI_Comm communicator)
+    explicit ContactProblem(const MPI_Comm communicator)
         : communicator(communicator), host(communicator)
     {
       // Options without a law are those of lagrange.
@@ -38,9 +54,16 @@ namespace abut
      * fail, and a smaller load step may help. */
     void check_law(const abut_status status) const;
     /** The source of the present rows; throws if there is none. */
-    const shim::RowSource &present_source() const;
+    const RowSource &present_source() const;
     /** As ContactHost::check_mesh(), and throw unless there are rows. */
     void check_rows(const std::string &call) const;
+    /** The same for an argument of that call, see ContactHost::vector(). */
+    const la::Vector &given(const std::string &call, const std::string &what,
+                            const la::VectorView &vector) const
+    {
+      check_rows(call);
+      return host.vector(call, what, vector);
+    }
     void create_source();
     /** Keep the counts of an exchange that is about to go. */
     void count_messages();
@@ -51,19 +74,18 @@ namespace abut
      * otherwise. */
     void find_rows_in_reach(const la::Vector &displacement);
     /** Let the source find points. Collective. */
-    shim::RowSource::Change find_points(const la::Vector &displacement);
+    RowSource::Change find_points(const la::Vector &displacement);
     /** Make all that belongs to new points. Collective. */
     void set_up_rows();
     /** Take out the rows of points, just made, that need none, and make the
      * operator of the others. @p elsewhere: the points if they are not those of
      * the source. Collective. */
-    solve::PointOperator
-    make_operator(abut_points *made,
-                  shim::PairPoints<dim> *elsewhere = nullptr);
+    solve::PointOperator make_operator(abut_points *made,
+                                       PairPoints<dim> *elsewhere = nullptr);
     /** Make what has been reached the trial version of the history. */
     void record_present();
     /** The present rows, for start values. */
-    shim::StartRows start_rows() const;
+    StartRows start_rows() const;
     /** Take up the penalty that was reached on other ranks. */
     void go_on_with_penalty(abut_strategy_options &options);
     /** Forget an iteration without its result. */
@@ -114,20 +136,19 @@ namespace abut
              == ABUT_CONFIGURATION_COMMITTED;
     }
     /** Pressures and states by the numbers of the rows. */
-    shim::RowValues row_values() const;
+    RowValues row_values() const;
     /** Make rows at this displacement, which start from what those of the same
      * number have had. Collective. */
-    void move_rows(const la::Vector &displacement,
-                   const shim::RowValues &before);
+    void move_rows(const la::Vector &displacement, const RowValues &before);
     /** Take the rows to this displacement, if they are the same there.
      * Collective. */
     void follow(const la::Vector &displacement);
     /** Another set of points, by the operator of its rows. */
     struct RowsElsewhere
     {
-      shim::Handle<abut_points> points;
+      Handle<abut_points> points;
       solve::PointOperator rows;
-      shim::RowSource::SlipReference slip_reference;
+      RowSource::SlipReference slip_reference;
     };
     /** The rows at this displacement, while the present ones stay. Collective.
      */
@@ -189,17 +210,17 @@ namespace abut
     std::vector<std::int64_t> row_numbers() const;
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
+    /** The same, but throw for a law whose forces are not these alone. */
+    void add_forces_of_law(la::Vector &forces) const;
+    abut_reason reason() const
+    {
+      return is_started ? request.reason : ABUT_REASON_NONE;
+    }
+    abut_progress progress() const;
     std::vector<std::uint8_t> row_states() const;
-    /** Where obstacles are between the nodes. Collective. */
-    std::vector<shim::FacetPenetration>
-    find_facet_penetrations(const la::Vector &displacement);
-    void examine_membrane(const la::Vector &displacement, double penetration,
-                          ContactExamination &result);
     /** Length that depths are compared with: how far bodies are deformed, or
      * the membrane is moved. Collective. */
     double deformation(const la::Vector &displacement) const;
-    /** Penetration that the law is meant to have, length. */
-    double soft_on_purpose() const;
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
     const MPI_Comm communicator;
@@ -214,43 +235,43 @@ namespace abut
     double given_length = 0.; ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */
-    shim::Handle<abut_context> context = shim::create_context();
+    Handle<abut_context> context = create_context();
 
-    shim::ContactHost<dim> host;
-    std::unique_ptr<shim::RowSource> source;
+    ContactHost<dim> host;
+    std::unique_ptr<RowSource> source;
     /** The same object if it makes rows of pairs, else null. */
-    shim::SurfaceRows<dim> *surfaces = nullptr;
+    SurfaceRows<dim> *surfaces = nullptr;
     /** The facets of pairs on this mesh, once they are found. */
-    std::shared_ptr<shim::SurfaceExchange<dim>> exchange;
+    std::shared_ptr<SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
     DetectionReport detection;
-    shim::ContactElements elements;
+    ContactElements elements;
     bool source_is_outdated = true;
     bool has_new_gaps = false; ///< of pairs that are otherwise the same
     mutable std::optional<solve::NearNullSpace> bodies;
     std::uint64_t points_mesh = 0; ///< signature of the points' mesh
     bool has_rows = false;         ///< since reinit(), by detect()
 
-    shim::Handle<abut_points> points; ///< of the last detect()
-    int points_dimension = 0;         ///< unknowns of their nodes
-    shim::Handle<abut_strategy> strategy;
+    Handle<abut_points> points; ///< of the last detect()
+    int points_dimension = 0;   ///< unknowns of their nodes
+    Handle<abut_strategy> strategy;
     solve::PointOperator coefficients; ///< B, by component of the points
     dealii::types::global_dof_index n_rows = 0;
 
-    shim::NitscheRows<dim> nitsche{context.get()};
+    NitscheRows<dim> nitsche{context.get()};
 
-    shim::ContactHistory history{context.get(), communicator};
-    shim::StartValues start;
+    ContactHistory history{context.get(), communicator};
+    StartValues start;
     std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
-    std::vector<shim::PlacedRow> placed_rows; ///< of the rows
-    shim::ContactHistory::Penalty penalty;    ///< of this iteration
+    std::vector<PlacedRow> placed_rows; ///< of the rows
+    ContactHistory::Penalty penalty;    ///< of this iteration
     la::Vector start_displacement;
-    shim::MovingRows moving;
+    MovingRows moving;
     std::vector<double> gap;   ///< [rows] at the current displacement
     bool has_friction = false; ///< some pair has, on all ranks
-    shim::CommittedState<dim> committed;
-    shim::RowSource::SlipReference slip_reference;
-    shim::GapRaises raises;
+    CommittedState<dim> committed;
+    RowSource::SlipReference slip_reference;
+    GapRaises raises;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
     /** Compliance of each unknown of this rank, in the matrix that penalties
@@ -287,7 +308,11 @@ namespace abut
     bool was_added = false; ///< by add(): the host solves
     abut_request request = {};
     LinearReport report;
+
+    const std::unique_ptr<ContactResults<dim>> results = make_results(*this);
+    const std::unique_ptr<ContactChecks<dim>> checks = make_checks(*this);
+    const std::unique_ptr<ContactState> state = make_state(*this);
   };
-} // namespace abut
+} // namespace abut::shim
 
 #endif

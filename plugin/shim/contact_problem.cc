@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // From a row source to a started strategy.
-#include "contact_implementation.h"
+#include "contact_problem.h"
 
 #include "agree.h"
 #include "deformation.h"
@@ -88,15 +88,13 @@ namespace abut
   } // namespace
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::check(const abut_status status) const
+  void shim::ContactProblem<dim>::check(const abut_status status) const
   {
     shim::check_everywhere(communicator, context.get(), status);
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::check_law(
-      const abut_status status) const
+  void shim::ContactProblem<dim>::check_law(const abut_status status) const
   {
     if (method.user_law == nullptr)
       check(status);
@@ -106,15 +104,13 @@ namespace abut
   }
 
   template <int dim>
-  double
-  ContactAssembler<dim>::Implementation::row_pressure(const int row) const
+  double shim::ContactProblem<dim>::row_pressure(const int row) const
   {
     return is_started ? request.pressure[row] : start.pressure(row);
   }
 
   template <int dim>
-  std::vector<double>
-  ContactAssembler<dim>::Implementation::row_pressures() const
+  std::vector<double> shim::ContactProblem<dim>::row_pressures() const
   {
     std::vector<double> result(coefficients.n_rows());
     for (int row = 0; row < coefficients.n_rows(); ++row)
@@ -123,8 +119,7 @@ namespace abut
   }
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::add_forces(la::Vector &forces) const
+  void shim::ContactProblem<dim>::add_forces(la::Vector &forces) const
   {
     std::vector<double> force = row_pressures();
     for (int row = 0; row < coefficients.n_rows(); ++row)
@@ -133,8 +128,28 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<std::uint8_t>
-  ContactAssembler<dim>::Implementation::row_states() const
+  void shim::ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
+  {
+    AssertThrow(!is_nitsche(), ExcMessage("The forces of Nitsche's method "
+                                          "are not those of its pressures "
+                                          "alone."));
+    add_forces(forces);
+  }
+
+  template <int dim> abut_progress shim::ContactProblem<dim>::progress() const
+  {
+    abut_progress progress = {};
+    // A strategy whose law fails is not started any more.
+    if (is_started)
+      if (const abut_status status =
+              abut_strategy_progress(strategy.get(), &progress);
+          status != ABUT_WRONG_ORDER)
+        shim::check(context.get(), status);
+    return progress;
+  }
+
+  template <int dim>
+  std::vector<std::uint8_t> shim::ContactProblem<dim>::row_states() const
   {
     if (is_started)
       return {request.state, request.state + coefficients.n_rows()};
@@ -142,8 +157,8 @@ namespace abut
   }
 
   template <int dim>
-  double ContactAssembler<dim>::Implementation::law_defect(
-      const int row, const double gap_there) const
+  double shim::ContactProblem<dim>::law_defect(const int row,
+                                               const double gap_there) const
   {
     if (coefficients.bilateral()[row] == 0 && !coefficients.is_tangent(row)
         && request.state[row] == ABUT_STATE_OPEN
@@ -158,8 +173,7 @@ namespace abut
   }
 
   template <int dim>
-  const shim::RowSource &
-  ContactAssembler<dim>::Implementation::present_source() const
+  const shim::RowSource &shim::ContactProblem<dim>::present_source() const
   {
     AssertThrow(source != nullptr,
                 ExcMessage("There are no rows: call detect() first."));
@@ -167,8 +181,7 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::check_rows(
-      const std::string &call) const
+  void shim::ContactProblem<dim>::check_rows(const std::string &call) const
   {
     host.check_mesh(call);
     AssertThrow(has_rows, ExcMessage("Call detect() before " + call
@@ -176,7 +189,7 @@ namespace abut
                                        "reinit()."));
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::create_source()
+  template <int dim> void shim::ContactProblem<dim>::create_source()
   {
     surfaces = nullptr;
     const bool has_obstacle = obstacle.lower || obstacle.upper;
@@ -218,8 +231,7 @@ namespace abut
     bodies.reset();
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::count_messages()
+  template <int dim> void shim::ContactProblem<dim>::count_messages()
   {
     if (exchange == nullptr)
       return;
@@ -229,7 +241,7 @@ namespace abut
     sent_before.gathered_bytes += sent.gathered_bytes;
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::clear_source()
+  template <int dim> void shim::ContactProblem<dim>::clear_source()
   {
     count_messages();
     exchange.reset();
@@ -239,7 +251,7 @@ namespace abut
   }
 
   template <int dim>
-  solve::PointOperator ContactAssembler<dim>::Implementation::make_operator(
+  solve::PointOperator shim::ContactProblem<dim>::make_operator(
       abut_points *const made, shim::PairPoints<dim> *const elsewhere)
   {
     abut_points_view view = {};
@@ -265,8 +277,8 @@ namespace abut
   }
 
   template <int dim>
-  shim::RowSource::Change ContactAssembler<dim>::Implementation::find_points(
-      const la::Vector &displacement)
+  shim::RowSource::Change
+  shim::ContactProblem<dim>::find_points(const la::Vector &displacement)
   {
     if (points == nullptr || points_dimension != source->dimension())
     {
@@ -294,7 +306,7 @@ namespace abut
     }
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::set_up_rows()
+  template <int dim> void shim::ContactProblem<dim>::set_up_rows()
   {
     coefficients = make_operator(points.get());
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
@@ -310,8 +322,7 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::find_rows(
-      const la::Vector &displacement)
+  void shim::ContactProblem<dim>::find_rows(const la::Vector &displacement)
   {
     rows_mesh = 0;
     const auto change = find_points(displacement);
@@ -330,8 +341,8 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::find_rows_in_reach(
-      const la::Vector &displacement)
+  void
+  shim::ContactProblem<dim>::find_rows_in_reach(const la::Vector &displacement)
   {
     for (bool is_found = false; !is_found;)
       try
@@ -350,8 +361,7 @@ namespace abut
       }
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::find_slip_reference()
+  template <int dim> void shim::ContactProblem<dim>::find_slip_reference()
   {
     slip_reference = {};
     has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
@@ -366,7 +376,7 @@ namespace abut
   }
 
   template <int dim>
-  la::Vector ContactAssembler<dim>::Implementation::displacement_of(
+  la::Vector shim::ContactProblem<dim>::displacement_of(
       const std::vector<solve::RigidMotion> &motions) const
   {
     const solve::NearNullSpace &space = near_null_space();
@@ -387,7 +397,7 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::add_approach(
+  void shim::ContactProblem<dim>::add_approach(
       const std::vector<solve::RigidMotion> &motions,
       const std::vector<std::uint8_t> &is_apart)
   {
@@ -397,7 +407,7 @@ namespace abut
     find_slip_reference();
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::set_friction()
+  template <int dim> void shim::ContactProblem<dim>::set_friction()
   {
     diagonal.clear();
     const auto points_with_friction = source->friction();
@@ -432,15 +442,13 @@ namespace abut
     check(abut_strategy_set_friction(strategy.get(), &friction));
   }
 
-  template <int dim>
-  bool ContactAssembler<dim>::Implementation::is_nitsche() const
+  template <int dim> bool shim::ContactProblem<dim>::is_nitsche() const
   {
     return abut_law_needs_stress(method.options.law);
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::compute_gap(
-      const la::Vector &displacement)
+  void shim::ContactProblem<dim>::compute_gap(const la::Vector &displacement)
   {
     gap.resize(coefficients.n_rows());
     coefficients.gap(displacement, gap.data());
@@ -450,15 +458,14 @@ namespace abut
       nitsche.move_to(displacement);
   }
 
-  template <int dim>
-  const double *ContactAssembler<dim>::Implementation::law_gap()
+  template <int dim> const double *shim::ContactProblem<dim>::law_gap()
   {
     return is_nitsche() ? nitsche.law_gap(gap) : gap.data();
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::find_row_stiffness(
-      const solve::Stiffness &matrix)
+  void
+  shim::ContactProblem<dim>::find_row_stiffness(const solve::Stiffness &matrix)
   {
     la::Vector compliance = solve::compliance(matrix);
     row_stiffness = solve::row_stiffness(compliance, coefficients);
@@ -473,8 +480,7 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::begin_at(
-      const la::Vector &displacement)
+  void shim::ContactProblem<dim>::begin_at(const la::Vector &displacement)
   {
     is_started = false;
     was_added = false;
@@ -484,9 +490,8 @@ namespace abut
   }
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::begin(const solve::Stiffness &matrix,
-                                               const la::Vector &residual)
+  void shim::ContactProblem<dim>::begin(const solve::Stiffness &matrix,
+                                        const la::Vector &residual)
   {
     stiffness = solve::row_stiffness(law_compliance, coefficients);
     if (surfaces != nullptr)
@@ -541,7 +546,7 @@ namespace abut
   }
 
   template <int dim>
-  solve::ContactIteration ContactAssembler<dim>::Implementation::iteration()
+  solve::ContactIteration shim::ContactProblem<dim>::iteration()
   {
     solve::ContactIteration result;
     result.gap = &gap;
@@ -561,7 +566,7 @@ namespace abut
     return result;
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::record_end()
+  template <int dim> void shim::ContactProblem<dim>::record_end()
   {
     undetermined.clear();
     followed_motions.clear();
@@ -569,7 +574,7 @@ namespace abut
       undetermined = solver->end_iteration(request);
   }
 
-  template <int dim> bool ContactAssembler<dim>::Implementation::widen_search()
+  template <int dim> bool shim::ContactProblem<dim>::widen_search()
   {
     // Parts of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;
@@ -587,8 +592,7 @@ namespace abut
   }
 
   template <int dim>
-  const solve::NearNullSpace &
-  ContactAssembler<dim>::Implementation::near_null_space() const
+  const solve::NearNullSpace &shim::ContactProblem<dim>::near_null_space() const
   {
     if (!bodies)
     {
@@ -603,8 +607,7 @@ namespace abut
     return *bodies;
   }
 
-  template <int dim>
-  void ContactAssembler<dim>::Implementation::check_host() const
+  template <int dim> void shim::ContactProblem<dim>::check_host() const
   {
     const auto need = [](const bool is_wanted, const std::string &what)
     {
@@ -623,8 +626,8 @@ namespace abut
   }
 
   template <int dim>
-  void ContactAssembler<dim>::Implementation::prepare_solver(
-      const solve::Stiffness &of_host)
+  void
+  shim::ContactProblem<dim>::prepare_solver(const solve::Stiffness &of_host)
   {
     if (of_host.has_matrix() != solver_has_matrix)
     {
@@ -662,14 +665,23 @@ namespace abut
     restore_preconditioner();
   }
 
-  template <int dim> void ContactAssembler<dim>::Implementation::next()
+  template <int dim> void shim::ContactProblem<dim>::restore_preconditioner()
+  {
+    if (kept_preconditioner.empty())
+      return;
+    const bool other_rows = kept_rows != rows_signature;
+    if (!dealii::Utilities::MPI::logical_or(other_rows, communicator))
+      solver->restore(kept_preconditioner);
+    kept_preconditioner.clear();
+  }
+
+  template <int dim> void shim::ContactProblem<dim>::next()
   {
     check_law(abut_strategy_next(strategy.get(), law_gap(), &request));
   }
 
   template <int dim>
-  void
-  ContactAssembler<dim>::Implementation::push_inside(la::Vector &displacement)
+  void shim::ContactProblem<dim>::push_inside(la::Vector &displacement)
   {
     // On the path of the barrier p g = mu, as far as the start knows p.
     double largest = 0.;
@@ -686,6 +698,6 @@ namespace abut
     source->push_inside(gap, margin, displacement);
   }
 
-  template struct ContactAssembler<2>::Implementation;
-  template struct ContactAssembler<3>::Implementation;
+  template struct shim::ContactProblem<2>;
+  template struct shim::ContactProblem<3>;
 } // namespace abut

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Checks that hosts ask for.
+#include "contact_problem.h"
+
+#include "solve/unsupported_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    template <int dim> class PresentChecks : public ContactChecks<dim>
+    {
+    public:
+      explicit PresentChecks(ContactProblem<dim> &problem) : i(problem)
+      {
+      }
+
+      std::vector<PairCheck> pairs() const override
+      {
+        return i.surfaces == nullptr ? std::vector<PairCheck>()
+                                     : i.surfaces->points().checks();
+      }
+
+      void supports(const Tangent &tangent,
+                    const la::VectorView &given_residual) const override
+      {
+        i.check_rows("supports()");
+        const solve::Stiffness stiffness =
+            i.host.stiffness("supports()", tangent);
+        if (i.surfaces == nullptr)
+          return;
+        solve::UnsupportedBodies unsupported;
+        unsupported.reinit(stiffness, i.coefficients, i.near_null_space());
+        const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
+        auto free = unsupported.free_motions(i.coefficients, all);
+        if (given_residual)
+        {
+          const la::Vector &residual =
+              i.host.vector("supports()", "residual", given_residual);
+          free = unsupported.along_which_works(free, residual,
+                                               solve::UnsupportedBodies::no_work
+                                                   * residual.l1_norm());
+        }
+        if (!free.empty())
+          unsupported.fail(free, solve::n_resisting(i.coefficients, all),
+                           "contact rows, open or not", "or tie it");
+      }
+
+      std::vector<Penetration<dim>>
+      penetrations(const la::VectorView &given_displacement,
+                   const double tolerance) const override
+      {
+        const la::Vector &displacement =
+            i.given("penetrations()", "displacement", given_displacement);
+        if (i.surfaces == nullptr)
+          return {};
+        return shim::penetrations(i.surfaces->points(), displacement,
+                                  tolerance);
+      }
+
+      ContactExamination examine(const la::VectorView &displacement,
+                                 const la::VectorView &residual,
+                                 const bool allow_large_strain) const override
+      {
+        return shim::examine(i, displacement, residual, allow_large_strain);
+      }
+
+      double missed_depth(const la::VectorView &given_displacement,
+                          dealii::Vector<float> &depth) const override
+      {
+        const la::Vector &displacement =
+            i.given("missed_depth()", "displacement", given_displacement);
+        depth.reinit(i.host.dof_handler().get_triangulation().n_active_cells());
+        // Peaks that are more than this part of what bodies are deformed by.
+        constexpr double visible_peak = 0.1;
+        const double least_peak = visible_peak * i.deformation(displacement);
+        double largest = 0.;
+        for (const FacetPenetration &found :
+             i.source->facet_penetrations(displacement, i.row_states().data()))
+          if (found.is_missed || found.peak > least_peak)
+          {
+            const double here = found.is_missed ? found.depth : found.peak;
+            depth(found.cell) =
+                std::max(depth(found.cell), static_cast<float>(here));
+            largest = std::max(largest, here);
+          }
+        return MPI::max(largest, i.communicator);
+      }
+
+      std::vector<double>
+      transfer_errors(const la::VectorView &given_displacement) const override
+      {
+        const la::Vector &displacement =
+            i.given("transfer_errors()", "displacement", given_displacement);
+        return i.surfaces == nullptr
+                   ? std::vector<double>()
+                   : shim::transfer_errors(i.surfaces->points(), displacement);
+      }
+
+      std::vector<StepMotion>
+      step_motion(const la::VectorView &given_displacement) const override
+      {
+        const la::Vector &displacement =
+            i.given("step_motion()", "displacement", given_displacement);
+        if (i.surfaces == nullptr)
+          return {};
+        const std::vector<std::uint8_t> states = i.row_states();
+        return shim::step_motion(i.surfaces->points(), displacement,
+                                 states.data());
+      }
+
+      PartnerChanges partner_changes() const override
+      {
+        PartnerChanges result = i.moving.changes();
+        for (std::uint64_t *count : {&result.lost, &result.jumped})
+          *count = MPI::sum(*count, i.communicator);
+        return result;
+      }
+
+      double imbalance(const la::VectorView &given_residual,
+                       const double least) const override
+      {
+        const la::Vector &residual =
+            i.given("imbalance()", "residual", given_residual);
+        la::Vector contact(residual);
+        contact = 0.;
+        i.add_forces(contact);
+        const double size = std::max(contact.l2_norm(), least);
+        contact -= residual;
+        return size > 0. ? contact.l2_norm() / size : 0.;
+      }
+
+      double imbalance(const la::VectorView &residual) const override
+      {
+        const double tolerance = i.method.options.final_linear_tolerance;
+        if (!i.is_started || (i.is_nitsche() && i.method.nitsche_theta != 0.))
+          return 0.;
+        return imbalance(residual, i.smallest_residual / tolerance);
+      }
+
+      ForceSize
+      size_of_forces(const Tangent &tangent,
+                     const la::VectorView &given_displacement) const override
+      {
+        i.host.check_mesh("size_of_forces()");
+        if (!tangent.has_matrix())
+          return {};
+        // One of Abut's type is that of a solve, which has examined it.
+        const solve::Stiffness stiffness =
+            tangent.other() == nullptr
+                ? solve::Stiffness(tangent.matrix())
+                : i.host.stiffness("size_of_forces()", tangent);
+        la::Vector free(i.host.vector("size_of_forces()", "displacement",
+                                      given_displacement));
+        if (i.moves())
+          i.add_round_off_of_positions(free);
+        i.host.constraints().set_zero(free);
+        const la::LocalRows rows = la::local_rows(stiffness.matrix());
+        const std::vector<double> u = la::gather(stiffness.matrix(), free);
+        double sums[2] = {0., 0.};
+        for (int row = 0; row < rows.n_rows; ++row)
+        {
+          double force = 0.;
+          for (int k = rows.start[row]; k < rows.start[row + 1]; ++k)
+            force += std::abs(rows.value[k] * u[rows.column[k]]);
+          sums[0] += force * force;
+          sums[1] += force * std::abs(u[row]);
+        }
+        dealii::Utilities::MPI::sum(sums, i.communicator, sums);
+        return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+      }
+
+    private:
+      ContactProblem<dim> &i;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<ContactChecks<dim>> make_checks(ContactProblem<dim> &problem)
+  {
+    return std::make_unique<PresentChecks<dim>>(problem);
+  }
+
+  template std::unique_ptr<ContactChecks<2>> make_checks(ContactProblem<2> &);
+  template std::unique_ptr<ContactChecks<3>> make_checks(ContactProblem<3> &);
+} // namespace abut::shim
