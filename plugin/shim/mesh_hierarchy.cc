@@ -163,7 +163,8 @@ namespace abut::shim
       if (fe.n_base_elements() != 1
           || dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
                  == nullptr
-          || n_components_ > 3 || !has_known_nodes(fe.base_element(0)))
+          || dof_handler_.get_fe_collection().size() > 1 || n_components_ > 3
+          || !has_known_nodes(fe.base_element(0)))
         return "it works with FE_Q of degree 1 and 2";
       return "";
     }

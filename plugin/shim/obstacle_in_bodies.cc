@@ -6,6 +6,7 @@
 
 #include "agree.h"
 #include "bodies.h"
+#include "by_element.h"
 #include "reference_faces.h"
 #include "sampling.h"
 
@@ -60,28 +61,22 @@ namespace abut::shim
     public:
       using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
+      /** @param u the displacement with ghosts
+       * @param n_cells of all ranks */
       CellProbe(const dealii::Mapping<dim> &mapping,
-                const dealii::DoFHandler<dim> &dof_handler,
-                const la::Vector &displacement, const ContactPair<dim> &pair)
+                const dealii::FiniteElement<dim> &fe, const la::Vector &u,
+                const double n_cells, const ContactPair<dim> &pair)
           : mapping_(mapping),
-            fe_(dof_handler.get_fe()),
+            fe_(fe),
             faces_(fe_.base_element(0)),
             pair_(pair),
-            corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags())
+            corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags()),
+            // No closer than this pays: the deepest point is followed from
+            // there.
+            n_(std::min(16u, samples_per_direction(n_cells, dim))),
+            grid_(mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags()),
+            u_(u)
       {
-        // No closer than this pays: the deepest point is followed from there.
-        constexpr unsigned int most = 16;
-        n_ = std::min(
-            most,
-            samples_per_direction(
-                dof_handler.get_triangulation().n_global_active_cells(), dim));
-        grid_ = std::make_unique<dealii::FEValues<dim>>(
-            mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags());
-        const dealii::IndexSet relevant =
-            dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
-        u_.reinit(dof_handler.locally_owned_dofs(), relevant,
-                  versions::communicator(dof_handler));
-        u_ = displacement;
       }
 
       void look(const Cell &cell, ObstacleInBodies<dim> &found)
@@ -90,8 +85,8 @@ namespace abut::shim
         sample(corners_);
         if (nearest() > extent())
           return;
-        grid_->reinit(cell);
-        DeepestPoint<dim> deepest = examine_points(cell, *grid_, found);
+        grid_.reinit(cell);
+        DeepestPoint<dim> deepest = examine_points(cell, grid_, found);
         // A part thinner than the grid may be just behind the surface.
         if (is_on_surface(cell, deepest.unit)
             && pair_.obstacle->depth() > extent() / n_)
@@ -199,9 +194,9 @@ namespace abut::shim
       const ReferenceFaces<dim> faces_;
       const ContactPair<dim> &pair_;
       dealii::FEValues<dim> corners_;
-      unsigned int n_ = 1;
-      std::unique_ptr<dealii::FEValues<dim>> grid_;
-      la::Vector u_;
+      const unsigned int n_;
+      dealii::FEValues<dim> grid_;
+      const la::Vector &u_;
       std::vector<dealii::Tensor<1, dim>> motion_;
       std::vector<dealii::Point<dim>> places_;
       std::vector<double> distance_;
@@ -289,14 +284,27 @@ namespace abut::shim
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
     const std::vector<int> is_meant =
         bodies_with(dof_handler, bodies, pair.secondary);
-    CellProbe<dim> probe(mapping, dof_handler, displacement, looked_at);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
+    la::Vector u(dof_handler.locally_owned_dofs(), relevant,
+                 versions::communicator(dof_handler));
+    u = displacement;
+    const ByElement probes(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return CellProbe<dim>(
+              mapping, fe, u,
+              dof_handler.get_triangulation().n_global_active_cells(),
+              looked_at);
+        });
     run_everywhere<ContactError>(
         versions::communicator(dof_handler),
         [&]
         {
           for (const auto &cell : dof_handler.active_cell_iterators())
             if (cell->is_locally_owned() && is_meant[bodies.of(cell)] != 0)
-              probe.look(cell, found);
+              probes.of(cell).look(cell, found);
         });
     return of_all_ranks(found, versions::communicator(dof_handler));
   }

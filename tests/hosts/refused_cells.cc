@@ -2,6 +2,7 @@
 // Cells, elements and methods for which there is no contact are refused, on all
 // ranks and with the reason.
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/mapping_by_cell.h>
 #include <abut/dealii/rigid_obstacle.h>
 #include <abut/dealii/versions.h>
 
@@ -122,7 +123,7 @@ namespace
                             Cube cube(FESystem<3>(FE_WedgeP<3>(1), 3));
                             cube.reinit();
                           });
-    refuses<ContactError>("cells of one kind",
+    refuses<ContactError>("for the same kind",
                           [&]
                           {
                             Cube cube(linear);
@@ -131,6 +132,40 @@ namespace
                                 hp::FECollection<3>(linear, linear));
                             cube.reinit();
                           });
+  }
+
+  /** A cube beside a tetrahedron. */
+  void refuse_mixtures()
+  {
+    const FESystem<3> cubes(FE_Q<3>(1), 3), simplices(FE_SimplexP<3>(1), 3);
+    const auto reinit = [&](const Mapping<3> &mapping, const bool swapped)
+    {
+      Cube host(cubes);
+      host.dofs.clear();
+      Triangulation<3> cube, simplex;
+      GridGenerator::hyper_cube(cube, 2., 3.);
+      GridGenerator::reference_cell(simplex, ReferenceCells::get_simplex<3>());
+      host.mesh.clear();
+      GridGenerator::merge_triangulations(cube, simplex, host.mesh);
+      host.dofs.reinit(host.mesh);
+      for (const auto &cell : host.dofs.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cell->set_active_fe_index(
+              cell->reference_cell().is_hyper_cube() == swapped ? 1 : 0);
+      host.dofs.distribute_dofs(hp::FECollection<3>(cubes, simplices));
+      host.constraints.clear();
+      host.constraints.close();
+      host.contact.reinit(mapping, host.dofs, host.constraints);
+    };
+    const MappingQ<3> bricks(1);
+    const MappingFE<3> linear(FE_SimplexP<3>(1));
+    const MappingByCell<3> both(hp::MappingCollection<3>(bricks, linear));
+    for (const Mapping<3> *one : {static_cast<const Mapping<3> *>(&bricks),
+                                  static_cast<const Mapping<3> *>(&linear)})
+      refuses<ContactError>("abut::MappingByCell",
+                            [&] { reinit(*one, false); });
+    refuses<ContactError>("active_fe_index()", [&] { reinit(both, true); });
+    reinit(both, false);
   }
 
   void refuse_elements()
@@ -188,6 +223,7 @@ main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   refuse_cells();
+  refuse_mixtures();
   refuse_elements();
   refuse_methods();
   if (!good)
