@@ -30,17 +30,6 @@ namespace abut::shim
       return false;
     }
 
-    /** Whether a cell of this rank has an element for other cells. */
-    template <int dim>
-    bool has_other_element(const dealii::DoFHandler<dim> &dof_handler)
-    {
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned()
-            && cell->get_fe().reference_cell() != cell->reference_cell())
-          return true;
-      return false;
-    }
-
     template <int dim> bool is_cube(const dealii::FiniteElement<dim> &fe)
     {
       return fe.reference_cell()
@@ -88,12 +77,6 @@ namespace abut::shim
                    "but the collection has "
                    + fes[j]->get_name() + " and " + fes[i]->get_name()
                    + " for the same kind.";
-      if (dealii::Utilities::MPI::logical_or(
-              has_other_element(dof_handler),
-              versions::communicator(dof_handler)))
-        return "A cell has the finite element of cells of another kind: let "
-               "active_fe_index() follow from reference_cell() before "
-               "distribute_dofs().";
       return "";
     }
 

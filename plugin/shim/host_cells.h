@@ -10,8 +10,8 @@
 namespace abut::shim
 {
   /** Why there is no contact with the cells, elements and mapping of a host;
-   * empty: there is. The same on all ranks. Collective for tetrahedra and for
-   * cells of two kinds only, of which it passes over the cells. */
+   * empty: there is. The same on all ranks. Collective for tetrahedra only, of
+   * which it passes over the cells. */
   template <int dim>
   Message cell_refusal(const dealii::Mapping<dim> &mapping,
                        const dealii::DoFHandler<dim> &dof_handler);

@@ -42,13 +42,24 @@ namespace abut
     {
     }
 
-    /** The mapping of a cell. */
-    const Base &of(const Cell &cell) const
+#if DEAL_II_VERSION_GTE(9, 8, 0)
+    using ReferenceCell = dealii::ReferenceCell<dim>;
+#else
+    using ReferenceCell = dealii::ReferenceCell;
+#endif
+
+    /** The mapping of cells of a kind. */
+    const Base &of(const ReferenceCell &kind) const
     {
       for (unsigned int i = 0; i + 1 < mappings_.size(); ++i)
-        if (mappings_[i].is_compatible_with(cell->reference_cell()))
+        if (mappings_[i].is_compatible_with(kind))
           return mappings_[i];
       return mappings_[mappings_.size() - 1];
+    }
+
+    const Base &of(const Cell &cell) const
+    {
+      return of(cell->reference_cell());
     }
 
     const dealii::hp::MappingCollection<dim> &mappings() const
@@ -80,11 +91,6 @@ namespace abut
       return true;
     }
 
-#if DEAL_II_VERSION_GTE(9, 8, 0)
-    using ReferenceCell = dealii::ReferenceCell<dim>;
-#else
-    using ReferenceCell = dealii::ReferenceCell;
-#endif
     bool is_compatible_with(const ReferenceCell &kind) const override
     {
       for (unsigned int i = 0; i < mappings_.size(); ++i)
