@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "bodies.h"
 
+#include "by_element.h"
+
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
@@ -101,12 +103,57 @@ namespace abut::shim
     return body_[cell->index()];
   }
 
+  namespace
+  {
+    /** Places of the nodes of the first field in one cell after the other;
+     * others may have no support points. */
+    template <int dim> class PlacesInCell
+    {
+    public:
+      PlacesInCell(const dealii::Mapping<dim> &mapping,
+                   const dealii::FiniteElement<dim> &fe)
+          : mapping_(mapping),
+            is_linear_(
+                fe.degree == 1 && fe.n_base_elements() == 1
+                && dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
+                       != nullptr),
+            values_(mapping, fe.base_element(0),
+                    dealii::Quadrature<dim>(
+                        fe.base_element(0).get_unit_support_points()),
+                    dealii::update_quadrature_points)
+      {
+      }
+
+      template <class Cell> void reinit(const Cell &cell)
+      {
+        // For linear elements the mapped vertices suffice.
+        if (is_linear_)
+          vertices_ = mapping_.get_vertices(cell);
+        else
+          values_.reinit(
+              static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                  cell));
+      }
+
+      const dealii::Point<dim> &operator[](const unsigned int node) const
+      {
+        return is_linear_ ? vertices_[node] : values_.quadrature_point(node);
+      }
+
+    private:
+      const dealii::Mapping<dim> &mapping_;
+      const bool is_linear_;
+      decltype(std::declval<const dealii::Mapping<dim> &>().get_vertices(
+          {})) vertices_;
+      dealii::FEValues<dim> values_;
+    };
+  } // namespace
+
   template <int dim>
   solve::NearNullSpace
   make_near_null_space(const dealii::Mapping<dim> &mapping,
                        const dealii::DoFHandler<dim> &dof_handler)
   {
-    const auto &fe = dof_handler.get_fe();
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
     solve::NearNullSpace space;
     space.n_components = dim;
@@ -114,31 +161,22 @@ namespace abut::shim
     space.n_bodies = bodies.n_bodies();
     space.resize(owned.n_elements());
 
-    // Other fields than the displacement may have no support points.
-    const dealii::FiniteElement<dim> &element = fe.base_element(0);
-    // For linear elements the mapped vertices suffice.
-    const bool is_linear =
-        fe.degree == 1 && fe.n_base_elements() == 1
-        && dynamic_cast<const dealii::FE_Q<dim> *>(&fe.base_element(0))
-               != nullptr;
-    dealii::FEValues<dim> values(
-        mapping, element,
-        dealii::Quadrature<dim>(element.get_unit_support_points()),
-        dealii::update_quadrature_points);
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    const ByElement places_of(dof_handler,
+                              [&](const dealii::FiniteElement<dim> &fe)
+                              { return PlacesInCell<dim>(mapping, fe); });
+    std::vector<dealii::types::global_dof_index> dofs;
     // An unknown of this rank may lie on ghost cells only.
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (cell->is_artificial())
         continue;
-      if (!is_linear)
-        values.reinit(
-            static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
-                cell));
-      const auto vertices = mapping.get_vertices(cell);
-      cell->get_dof_indices(dofs);
+      const dealii::FiniteElement<dim> &fe = cell->get_fe();
+      PlacesInCell<dim> &places = places_of.of(cell);
+      places.reinit(cell);
+      get_dofs(cell, dofs);
       const unsigned int body = bodies.of(cell);
-      const double share = cell->measure() / element.n_dofs_per_cell();
+      const double share =
+          cell->measure() / fe.base_element(0).n_dofs_per_cell();
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
         if (!owned.is_element(dofs[i]))
@@ -147,11 +185,9 @@ namespace abut::shim
             fe.is_primitive(i) && fe.system_to_component_index(i).first < dim;
         const unsigned int node =
             is_displacement ? fe.system_to_base_index(i).second : 0;
-        const dealii::Point<dim> point =
-            is_linear ? vertices[node] : values.quadrature_point(node);
         space.set(owned.index_within_set(dofs[i]),
                   is_displacement ? fe.system_to_component_index(i).first : dim,
-                  static_cast<int>(body), point);
+                  static_cast<int>(body), places[node]);
         space.share.change()[owned.index_within_set(dofs[i])] += share;
       }
     }

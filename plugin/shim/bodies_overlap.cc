@@ -2,6 +2,7 @@
 #include "bodies_overlap.h"
 
 #include "bodies.h"
+#include "by_element.h"
 #include "reference_faces.h"
 
 #include <abut/dealii/versions.h>
@@ -113,7 +114,10 @@ namespace abut::shim
                    const std::set<dealii::types::boundary_id> &ids)
     {
       const std::vector<int> has_facets = bodies_with(dof_handler, bodies, ids);
-      const ReferenceFaces<dim> faces(dof_handler.get_fe().base_element(0));
+      const ByElement faces_of(dof_handler,
+                               [](const dealii::FiniteElement<dim> &fe) {
+                                 return ReferenceFaces<dim>(fe.base_element(0));
+                               });
       PlacedNode<dim> low;
       NodeInside<dim> deepest;
       for (const auto &cell : dof_handler.active_cell_iterators())
@@ -129,8 +133,8 @@ namespace abut::shim
              corner != corners.end() && corner->place[0] <= high; ++corner)
           if (corner->body != body && box.point_inside(corner->place))
           {
-            const double depth =
-                depth_in<dim>(mapping, faces, cell, at_surface, corner->place);
+            const double depth = depth_in<dim>(mapping, faces_of.of(cell), cell,
+                                               at_surface, corner->place);
             if (depth > deepest.depth)
               deepest = {depth, corner->place};
           }

@@ -52,6 +52,12 @@ namespace abut::shim
                    : 0.;
       }
     };
+
+    bool is_straight(const abut_facet_kind kind)
+    {
+      return kind == ABUT_FACET_LINE2 || kind == ABUT_FACET_QUAD4
+             || kind == ABUT_FACET_TRI3;
+    }
   } // namespace
 
   template <int dim>
@@ -59,11 +65,10 @@ namespace abut::shim
                      const std::uint8_t *row_state, const double least)
   {
     const SurfacePair<dim> &pair = points.pairs()[number];
-    const bool is_straight = points.surface().kind == ABUT_FACET_LINE2
-                             || points.surface().kind == ABUT_FACET_QUAD4
-                             || points.surface().kind == ABUT_FACET_TRI3;
     const std::size_t n_nodes = points.surface().nodes.size();
-    if (!is_straight || pair.data.obstacle || !pair.data.geometric_gap)
+    const auto kinds = points.exchange().kinds();
+    if (std::none_of(kinds.begin(), kinds.end(), is_straight)
+        || pair.data.obstacle || !pair.data.geometric_gap)
       return 0.;
     std::vector<std::uint8_t> touching = points.touching_nodes(row_state);
     points.for_each_component(
@@ -89,7 +94,7 @@ namespace abut::shim
       for (const std::int32_t f : side.facet)
       {
         const auto &facet = points.surface().facets[f];
-        if (facet.owner != me)
+        if (facet.owner != me || !is_straight(facet.kind))
           continue;
         const auto face = points.host()
                               .dof_handler.get_triangulation()
@@ -100,7 +105,7 @@ namespace abut::shim
         chord.to_curve = middle_on_manifold<dim>(face) - chord.middle;
         chord.size = face->diameter();
         bool touches = false;
-        for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
           touches = touches || marks[facet.node[a]] != 0;
         if (!touches || chord.to_curve.norm() <= least)
           continue;

@@ -56,9 +56,9 @@ namespace abut::shim
       {
         const auto &facet = points.surface().facets[f];
         double least = INFINITY;
-        for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
           least = std::min(least, distance[facet.node[a]]);
-        for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
           around[facet.node[a]] = std::min(around[facet.node[a]], least);
       }
       return around;

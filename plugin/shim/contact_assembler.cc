@@ -165,7 +165,7 @@ namespace abut
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
-    const Message reason = shim::cell_refusal(dof_handler);
+    const Message reason = shim::cell_refusal(mapping, dof_handler);
     if (!reason.empty())
       throw ContactError(reason);
     i.record_present();

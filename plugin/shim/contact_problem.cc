@@ -221,7 +221,7 @@ namespace abut
               + std::to_string(host.dof_handler().get_fe().n_components())
               + " components."));
       const Message reason = shim::obstacle_refusal(
-          host.dof_handler().get_fe(), !obstacle.boundary_ids.empty());
+          host.dof_handler(), !obstacle.boundary_ids.empty());
       if (!reason.empty())
         throw ObstacleError(reason);
       source = std::make_unique<shim::NodalObstacleRows<dim>>(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "by_element.h"
 #include "cell_quadrature.h"
 
 #include <abut/dealii/contact_refinement.h>
@@ -21,13 +22,13 @@ namespace abut
                       const la::Vector &status,
                       const std::set<dealii::types::boundary_id> &secondary)
   {
-    const auto &fe = dof_handler.get_fe();
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     const auto has_border = [&](const auto &cell, const unsigned int f)
     {
       if (!cell->face(f)->at_boundary()
           || secondary.count(cell->face(f)->boundary_id()) == 0)
         return false;
+      const auto &fe = cell->get_fe();
       bool has[3] = {false, false, false}; // open, stick, slip
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (shim::has_node_on_face(fe, i, f)
@@ -42,7 +43,7 @@ namespace abut
     {
       if (!cell->is_locally_owned() || !cell->at_boundary())
         continue;
-      cell->get_dof_indices(dofs);
+      shim::get_dofs(cell, dofs);
       for (const unsigned int f : cell->face_indices())
         if (has_border(cell, f))
         {

@@ -57,14 +57,19 @@ namespace abut::shim
     {
       dealii::CellId::binary_type cell; ///< as binary CellId
       std::uint32_t face;
+      abut_facet_kind kind;
       dealii::types::boundary_id boundary_id;
       std::uint32_t owner; ///< rank of the cell
       std::int64_t number; ///< unique over all ranks: along the mesh
       /** In the order of abut/facet.h, outward. */
       std::array<std::int32_t, max_nodes> node;
+
+      unsigned int n_nodes() const
+      {
+        return static_cast<unsigned int>(abut_facet_n_nodes(kind));
+      }
     };
 
-    abut_facet_kind kind = dim == 2 ? ABUT_FACET_LINE2 : ABUT_FACET_QUAD4;
     std::vector<Facet> facets;
     std::vector<Node> nodes;
     /** The unknowns of each node by the host's constraints. */
@@ -75,12 +80,6 @@ namespace abut::shim
     std::int64_t n_facets_everywhere = 0;
     /** All numbers of nodes are below. */
     std::int64_t node_number_end = 0;
-
-    /** Nodes of a facet. */
-    unsigned int nodes_per_facet() const
-    {
-      return static_cast<unsigned int>(abut_facet_n_nodes(kind));
-    }
   };
 } // namespace abut::shim
 

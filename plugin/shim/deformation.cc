@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "deformation.h"
 
+#include "by_element.h"
+#include "cell_quadrature.h"
 #include "principal_values.h"
-#include "reference_faces.h"
 
 #include <abut/dealii/versions.h>
 
@@ -203,14 +204,16 @@ namespace abut::shim
                   const dealii::DoFHandler<dim> &dof_handler,
                   const la::Vector &u, const bool axisymmetric)
   {
-    const dealii::FiniteElement<dim> &fe = dof_handler.get_fe();
     const MPI_Comm communicator = versions::communicator(dof_handler);
     const dealii::IndexSet relevant =
         dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
     la::Vector ghosted(dof_handler.locally_owned_dofs(), relevant,
                        communicator);
     ghosted = u;
-    CellMotion<dim> motion(mapping, fe, axisymmetric);
+    const ByElement motions(dof_handler,
+                            [&](const dealii::FiniteElement<dim> &fe) {
+                              return CellMotion<dim>(mapping, fe, axisymmetric);
+                            });
     Strains result;
     std::map<unsigned int, Sums> sums;
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -218,6 +221,7 @@ namespace abut::shim
       if (!cell->is_locally_owned())
         continue;
       Sums &sum = sums[cell->material_id()];
+      CellMotion<dim> &motion = motions.of(cell);
       motion.reinit(cell, ghosted);
       for (const unsigned int q : motion.points.quadrature_point_indices())
       {

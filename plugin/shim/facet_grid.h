@@ -6,46 +6,59 @@
 
 #include <abut/facet.h>
 
+#include <map>
+
 namespace abut::shim
 {
-  /** A regular grid of points in facets. */
+  /** A regular grid of points in facets, @p n along each edge. */
   template <int dim> class FacetGrid
   {
   public:
-    FacetGrid(const abut_facet_kind kind, const unsigned int n)
-        : n_nodes_(static_cast<unsigned int>(abut_facet_n_nodes(kind)))
+    explicit FacetGrid(const unsigned int n) : n_(n)
     {
-      const auto coordinate = [&](const unsigned int k)
-      { return (2. * k + 1.) / n - 1.; };
-      const auto add = [&](const double xi, const double eta)
-      {
-        const double local[2] = {xi, eta};
-        shape_.emplace_back(n_nodes_);
-        abut_facet_shape(kind, local, shape_.back().data(), nullptr, nullptr);
-      };
-      if (kind == ABUT_FACET_TRI3 || kind == ABUT_FACET_TRI6)
-        for (const dealii::Point<2> &point : simplex_points<2>(n))
-          add(point[0], point[1]);
-      else
-        for (unsigned int j = 0; j < (dim == 2 ? 1 : n); ++j)
-          for (unsigned int i = 0; i < n; ++i)
-            add(coordinate(i), coordinate(j));
     }
 
     /** The points of a facet whose node a is at place_of(a). */
     template <typename PlaceOf>
-    std::vector<dealii::Point<dim>> points(const PlaceOf &place_of) const
+    std::vector<dealii::Point<dim>> points(const abut_facet_kind kind,
+                                           const PlaceOf &place_of)
     {
-      std::vector<dealii::Point<dim>> result(shape_.size());
-      for (std::size_t q = 0; q < shape_.size(); ++q)
-        for (unsigned int a = 0; a < n_nodes_; ++a)
-          result[q] += shape_[q][a] * dealii::Tensor<1, dim>(place_of(a));
+      Shape &shape = shape_[kind];
+      if (shape.empty())
+        shape = tabulate(kind);
+      std::vector<dealii::Point<dim>> result(shape.size());
+      for (std::size_t q = 0; q < shape.size(); ++q)
+        for (unsigned int a = 0; a < shape[q].size(); ++a)
+          result[q] += shape[q][a] * dealii::Tensor<1, dim>(place_of(a));
       return result;
     }
 
   private:
-    unsigned int n_nodes_;
-    std::vector<std::vector<double>> shape_; ///< [points][nodes]
+    using Shape = std::vector<std::vector<double>>; // [points][nodes]
+
+    Shape tabulate(const abut_facet_kind kind) const
+    {
+      Shape shape;
+      const auto coordinate = [&](const unsigned int k)
+      { return (2. * k + 1.) / n_ - 1.; };
+      const auto add = [&](const double xi, const double eta)
+      {
+        const double local[2] = {xi, eta};
+        shape.emplace_back(abut_facet_n_nodes(kind));
+        abut_facet_shape(kind, local, shape.back().data(), nullptr, nullptr);
+      };
+      if (kind == ABUT_FACET_TRI3 || kind == ABUT_FACET_TRI6)
+        for (const dealii::Point<2> &point : simplex_points<2>(n_))
+          add(point[0], point[1]);
+      else
+        for (unsigned int j = 0; j < (dim == 2 ? 1 : n_); ++j)
+          for (unsigned int i = 0; i < n_; ++i)
+            add(coordinate(i), coordinate(j));
+      return shape;
+    }
+
+    const unsigned int n_;
+    std::map<abut_facet_kind, Shape> shape_;
   };
 } // namespace abut::shim
 

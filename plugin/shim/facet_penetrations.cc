@@ -40,8 +40,8 @@ namespace abut::shim
      * its nodes do not see: where they were, their gaps are larger than at the
      * point. */
     template <int dim>
-    double peak_of(const RigidObstacle<dim> &obstacle,
-                   const FacetGrid<dim> &grid,
+    double peak_of(const RigidObstacle<dim> &obstacle, FacetGrid<dim> &grid,
+                   const abut_facet_kind kind,
                    const std::vector<dealii::Point<dim>> &nodes,
                    const std::vector<dealii::Tensor<1, dim>> &normal,
                    const std::vector<double> &depth)
@@ -49,7 +49,8 @@ namespace abut::shim
       std::vector<double> gap, gap_of_nodes;
       obstacle.distance(nodes, gap_of_nodes);
       obstacle.distance(
-          grid.points([&](const unsigned int a) { return nodes[a]; }), gap);
+          grid.points(kind, [&](const unsigned int a) { return nodes[a]; }),
+          gap);
       const double known =
           *std::min_element(gap_of_nodes.begin(), gap_of_nodes.end())
           - hollow_of(nodes, normal);
@@ -89,9 +90,7 @@ namespace abut::shim
       // is no distance can be in it.
       const bool is_distance = obstacle.view().kind != ABUT_OBSTACLE_FUNCTION;
       const auto me = MPI::this_mpi_process(host.communicator);
-      const unsigned int n_nodes = surface.nodes_per_facet();
-      const FacetGrid<dim> grid(
-          surface.kind,
+      FacetGrid<dim> grid(
           samples_per_direction(pair.secondary.everywhere.n_facets, dim - 1));
 
       std::vector<dealii::Point<dim>> points;
@@ -119,14 +118,14 @@ namespace abut::shim
         double nearest = INFINITY, size = 0.;
         const auto place_of = [&](const unsigned int a)
         { return surface.nodes[facet.node[a]].point + u[facet.node[a]]; };
-        for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
         {
           nearest = std::min(nearest, at_node[facet.node[a]]);
           size = std::max(size, place_of(a).distance(place_of(0)));
         }
         if (is_distance && nearest + pair.data.gap > size)
           continue;
-        points = grid.points(place_of);
+        points = grid.points(facet.kind, place_of);
         obstacle.distance(points, distance);
 
         FacetPenetration here;
@@ -140,16 +139,16 @@ namespace abut::shim
           continue;
         std::vector<dealii::Point<dim>> nodes;
         std::vector<Direction<dim>> normal;
-        for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
         {
           nodes.push_back(pair.has_committed_points()
                               ? pair_points.present()[facet.node[a]]
                               : surface.nodes[facet.node[a]].point);
           normal.push_back(normal_at[facet.node[a]]);
         }
-        here.peak = peak_of(obstacle, grid, nodes, normal, depth);
+        here.peak = peak_of(obstacle, grid, facet.kind, nodes, normal, depth);
         here.is_missed = touching_facets[f] == 0;
-        for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
           if (touching[number * surface.nodes.size() + facet.node[a]] != 0)
             here.is_missed = false;
         const dealii::CellId id(facet.cell);

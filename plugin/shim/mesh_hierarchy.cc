@@ -178,6 +178,8 @@ namespace abut::shim
                        != nullptr)
                && has_known_nodes(base);
       };
+      if (dof_handler_.get_fe_collection().size() > 1)
+        return "there are cells of two kinds";
       if (fe.n_base_elements() != 1 || n_components_ > 3
           || !is_known(fe.base_element(0)))
         return "it works with FE_Q and FE_SimplexP of degree 1 and 2";

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "nodal_candidates.h"
 
-#include "reference_faces.h"
+#include "by_element.h"
+#include "cell_quadrature.h"
 #include "shifted_cells.h"
 
 #include <abut/dealii/linear_algebra.h>
@@ -88,17 +89,23 @@ namespace abut::shim
                            const dealii::DoFHandler<dim> &dof_handler,
                            Collection<dim> &collection)
     {
-      const auto &fe = dof_handler.get_fe();
-      dealii::FEValues<dim> values(mapping, fe, support_quadrature(fe),
-                                   dealii::update_JxW_values
-                                       | dealii::update_quadrature_points);
-      std::vector<global_dof_index> dofs(fe.n_dofs_per_cell());
+      const ByElement values_of(dof_handler,
+                                [&](const dealii::FiniteElement<dim> &fe)
+                                {
+                                  return dealii::FEValues<dim>(
+                                      mapping, fe, support_quadrature(fe),
+                                      dealii::update_JxW_values
+                                          | dealii::update_quadrature_points);
+                                });
+      std::vector<global_dof_index> dofs;
       ShiftedCells<dim> shapes(mapping);
-      const bool nodes_are_vertices = has_nodes_in_vertices(fe);
+      const bool nodes_are_vertices =
+          has_nodes_in_vertices(dof_handler.get_fe());
       for (const auto &cell : dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
         {
-          cell->get_dof_indices(dofs);
+          dealii::FEValues<dim> &values = values_of.of(cell);
+          get_dofs(cell, dofs);
           if (nodes_are_vertices && shapes.is_shifted(cell))
           {
             for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -130,13 +137,16 @@ namespace abut::shim
                              const std::set<dealii::types::boundary_id> &ids,
                              Collection<dim> &collection)
     {
-      const auto &fe = dof_handler.get_fe();
-      const dealii::Quadrature<dim - 1> quadrature = node_rule(fe);
-      dealii::FEFaceValues<dim> values(mapping, fe, quadrature,
-                                       dealii::update_values
-                                           | dealii::update_JxW_values
-                                           | dealii::update_quadrature_points);
-      std::vector<global_dof_index> dofs(fe.n_dofs_per_cell());
+      const ByElement values_of(dof_handler,
+                                [&](const dealii::FiniteElement<dim> &fe)
+                                {
+                                  return dealii::FEFaceValues<dim>(
+                                      mapping, fe, node_rule(fe),
+                                      dealii::update_values
+                                          | dealii::update_JxW_values
+                                          | dealii::update_quadrature_points);
+                                });
+      std::vector<global_dof_index> dofs;
       // A node of this rank may lie on boundary faces of ghost cells only: its
       // place is taken from there, its weight from the owner of the cell.
       for (const auto &cell : dof_handler.active_cell_iterators())
@@ -144,9 +154,10 @@ namespace abut::shim
           for (const auto &face : cell->face_iterators())
             if (face->at_boundary() && ids.count(face->boundary_id()) != 0)
             {
+              dealii::FEFaceValues<dim> &values = values_of.of(cell);
               values.reinit(cell, face);
-              cell->get_dof_indices(dofs);
-              for (unsigned int q = 0; q < quadrature.size(); ++q)
+              get_dofs(cell, dofs);
+              for (const unsigned int q : values.quadrature_point_indices())
                 for (unsigned int i = 0; i < dofs.size(); ++i)
                   if (values.shape_value(i, q) > 0.5)
                     collection.add(dofs[i], values.quadrature_point(q),

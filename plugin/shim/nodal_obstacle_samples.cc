@@ -3,6 +3,7 @@
 #include "nodal_obstacle_rows.h"
 
 #include "agree.h"
+#include "by_element.h"
 #include "reference_faces.h"
 #include "sampling.h"
 
@@ -126,25 +127,42 @@ namespace abut::shim
     };
 
     const bool on_faces = !obstacle_.boundary_ids.empty();
-    const auto &fe = dof_handler_.get_fe();
     const unsigned int n = samples_per_direction(
         dof_handler_.get_triangulation().n_global_active_cells(),
         on_faces ? dim - 1 : dim);
     const auto flags = dealii::update_values | dealii::update_quadrature_points;
     // Which of them is used: to make one takes longer than a step of few cells.
-    std::optional<dealii::FEValues<dim>> in_cell;
-    std::optional<dealii::FEFaceValues<dim>> on_face;
+    using Element = dealii::FiniteElement<dim>;
+    std::optional<ByElement<dealii::FEValues<dim>>> in_cells;
+    std::optional<ByElement<dealii::FEFaceValues<dim>>> on_all_faces;
     if (on_faces)
-      on_face.emplace(mapping_, fe, regular_points<dim - 1>(n, is_simplex(fe)),
-                      flags);
+      on_all_faces.emplace(dof_handler_,
+                           [&](const Element &fe)
+                           {
+                             return dealii::FEFaceValues<dim>(
+                                 mapping_, fe,
+                                 regular_points<dim - 1>(n, is_simplex(fe)),
+                                 flags);
+                           });
     else
-      in_cell.emplace(mapping_, fe, regular_points<dim>(n, is_simplex(fe)),
-                      flags);
-    dealii::FEValues<dim> at_nodes(
-        mapping_, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
-        dealii::update_quadrature_points);
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    std::vector<double> of_nodes(dofs.size()), values, height;
+      in_cells.emplace(dof_handler_,
+                       [&](const Element &fe)
+                       {
+                         return dealii::FEValues<dim>(
+                             mapping_, fe,
+                             regular_points<dim>(n, is_simplex(fe)), flags);
+                       });
+    const ByElement at_all_nodes(
+        dof_handler_,
+        [&](const Element &fe)
+        {
+          return dealii::FEValues<dim>(
+              mapping_, fe,
+              dealii::Quadrature<dim>(fe.get_unit_support_points()),
+              dealii::update_quadrature_points);
+        });
+    std::vector<dealii::types::global_dof_index> dofs;
+    std::vector<double> of_nodes, values, height;
     std::vector<dealii::Point<dim>> nodes;
     std::vector<FacetPenetration> result;
     const auto look = [&](const auto &cell,
@@ -153,7 +171,8 @@ namespace abut::shim
     {
       FacetPenetration found;
       found.cell = cell->active_cell_index();
-      cell->get_dof_indices(dofs);
+      get_dofs(cell, dofs);
+      of_nodes.resize(dofs.size());
       for (unsigned int i = 0; i < dofs.size(); ++i)
         of_nodes[i] = u(dofs[i]);
       values.assign(points.n_quadrature_points, 0.);
@@ -163,6 +182,7 @@ namespace abut::shim
       find_depth(points.get_quadrature_points(), values, height, found);
       if (found.depth <= 0.)
         return;
+      dealii::FEValues<dim> &at_nodes = at_all_nodes.of(cell);
       at_nodes.reinit(cell);
       nodes.clear();
       for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -185,8 +205,9 @@ namespace abut::shim
               continue;
             if (!on_faces)
             {
-              in_cell->reinit(cell);
-              look(cell, *in_cell, [](unsigned int) { return true; });
+              dealii::FEValues<dim> &in_cell = in_cells->of(cell);
+              in_cell.reinit(cell);
+              look(cell, in_cell, [](unsigned int) { return true; });
               continue;
             }
             for (const unsigned int f : cell->face_indices())
@@ -194,10 +215,11 @@ namespace abut::shim
                   && obstacle_.boundary_ids.count(cell->face(f)->boundary_id())
                          > 0)
               {
-                on_face->reinit(cell, f);
-                look(cell, *on_face,
+                dealii::FEFaceValues<dim> &on_face = on_all_faces->of(cell);
+                on_face.reinit(cell, f);
+                look(cell, on_face,
                      [&](const unsigned int i)
-                     { return has_node_on_face(fe, i, f); });
+                     { return has_node_on_face(cell->get_fe(), i, f); });
               }
           }
         });

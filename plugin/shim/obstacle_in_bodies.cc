@@ -6,6 +6,7 @@
 
 #include "agree.h"
 #include "bodies.h"
+#include "by_element.h"
 #include "reference_faces.h"
 #include "sampling.h"
 
@@ -60,35 +61,25 @@ namespace abut::shim
     public:
       using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
+      /** @param u the displacement with ghosts
+       * @param n_cells of all ranks
+       * @param is_surface_vertex [vertices] of the pair's surface */
       CellProbe(const dealii::Mapping<dim> &mapping,
-                const dealii::DoFHandler<dim> &dof_handler,
-                const la::Vector &displacement, const ContactPair<dim> &pair)
+                const dealii::FiniteElement<dim> &fe, const la::Vector &u,
+                const double n_cells, const ContactPair<dim> &pair,
+                const std::vector<bool> &is_surface_vertex)
           : mapping_(mapping),
-            fe_(dof_handler.get_fe()),
+            fe_(fe),
             faces_(fe_.base_element(0)),
             pair_(pair),
             corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags()),
-            is_surface_vertex_(dof_handler.get_triangulation().n_vertices())
+            // No closer than this pays: the deepest point is followed from
+            // there.
+            n_(std::min(16u, samples_per_direction(n_cells, dim))),
+            grid_(mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags()),
+            u_(u),
+            is_surface_vertex_(is_surface_vertex)
       {
-        for (const auto &face :
-             dof_handler.get_triangulation().active_face_iterators())
-          if (face->at_boundary()
-              && pair.secondary.count(face->boundary_id()) > 0)
-            for (const unsigned int v : face->vertex_indices())
-              is_surface_vertex_[face->vertex_index(v)] = true;
-        // No closer than this pays: the deepest point is followed from there.
-        constexpr unsigned int most = 16;
-        n_ = std::min(
-            most,
-            samples_per_direction(
-                dof_handler.get_triangulation().n_global_active_cells(), dim));
-        grid_ = std::make_unique<dealii::FEValues<dim>>(
-            mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags());
-        const dealii::IndexSet relevant =
-            dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
-        u_.reinit(dof_handler.locally_owned_dofs(), relevant,
-                  versions::communicator(dof_handler));
-        u_ = displacement;
       }
 
       void look(const Cell &cell, ObstacleInBodies<dim> &found)
@@ -97,8 +88,8 @@ namespace abut::shim
         sample(corners_);
         if (nearest() > extent())
           return;
-        grid_->reinit(cell);
-        DeepestPoint<dim> deepest = examine_points(cell, *grid_, found);
+        grid_.reinit(cell);
+        DeepestPoint<dim> deepest = examine_points(cell, grid_, found);
         // A part thinner than the grid may be just behind the surface.
         const double size = extent();
         if (touches_surface(cell, deepest.unit)
@@ -224,14 +215,28 @@ namespace abut::shim
       const ReferenceFaces<dim> faces_;
       const ContactPair<dim> &pair_;
       dealii::FEValues<dim> corners_;
-      std::vector<bool> is_surface_vertex_;
-      unsigned int n_ = 1;
-      std::unique_ptr<dealii::FEValues<dim>> grid_;
-      la::Vector u_;
+      const unsigned int n_;
+      dealii::FEValues<dim> grid_;
+      const la::Vector &u_;
+      const std::vector<bool> &is_surface_vertex_;
       std::vector<dealii::Tensor<1, dim>> motion_;
       std::vector<dealii::Point<dim>> places_;
       std::vector<double> distance_;
     };
+
+    /** [vertices] those of boundary faces with given ids. */
+    template <int dim>
+    std::vector<bool>
+    surface_vertices(const dealii::Triangulation<dim> &triangulation,
+                     const std::set<dealii::types::boundary_id> &ids)
+    {
+      std::vector<bool> result(triangulation.n_vertices(), false);
+      for (const auto &face : triangulation.active_face_iterators())
+        if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+          for (const unsigned int v : face->vertex_indices())
+            result[face->vertex_index(v)] = true;
+      return result;
+    }
 
     /** The deepest of all ranks. Collective. */
     template <int dim>
@@ -315,14 +320,29 @@ namespace abut::shim
     const BodyNumbers<dim> bodies(dof_handler.get_triangulation());
     const std::vector<int> is_meant =
         bodies_with(dof_handler, bodies, pair.secondary);
-    CellProbe<dim> probe(mapping, dof_handler, displacement, looked_at);
+    const dealii::IndexSet relevant =
+        dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
+    la::Vector u(dof_handler.locally_owned_dofs(), relevant,
+                 versions::communicator(dof_handler));
+    u = displacement;
+    const std::vector<bool> is_surface_vertex =
+        surface_vertices(dof_handler.get_triangulation(), pair.secondary);
+    const ByElement probes(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return CellProbe<dim>(
+              mapping, fe, u,
+              dof_handler.get_triangulation().n_global_active_cells(),
+              looked_at, is_surface_vertex);
+        });
     run_everywhere<ContactError>(
         versions::communicator(dof_handler),
         [&]
         {
           for (const auto &cell : dof_handler.active_cell_iterators())
             if (cell->is_locally_owned() && is_meant[bodies.of(cell)] != 0)
-              probe.look(cell, found);
+              probes.of(cell).look(cell, found);
         });
     return of_all_ranks(found, versions::communicator(dof_handler));
   }

@@ -57,7 +57,7 @@ namespace abut::shim
         continue;
       nodes.clear();
       double size = 0.;
-      for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
+      for (unsigned int a = 0; a < facet.n_nodes(); ++a)
       {
         const NodeIndex node = facet.node[a];
         nodes.push_back(points.surface().nodes[node].point + u[node]);
@@ -103,7 +103,7 @@ namespace abut::shim
       Direction<dim> normal;
       std::vector<dealii::Point<dim>> nodes;
       double size = 0.;
-      for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
+      for (unsigned int a = 0; a < facet.n_nodes(); ++a)
       {
         const NodeIndex node = facet.node[a];
         nodes.push_back(points.surface().nodes[node].point + u[node]);
@@ -111,7 +111,7 @@ namespace abut::shim
         const int n = pair.secondary.local_node(node);
         for (unsigned int d = 0; d < dim; ++d)
         {
-          middle[d] += nodes[a][d] / points.surface().nodes_per_facet();
+          middle[d] += nodes[a][d] / facet.n_nodes();
           normal[d] += normals[n * dim + d];
         }
       }

@@ -19,7 +19,6 @@ namespace abut::shim
 
   template <int dim>
   Handle<abut_coupling> make_coupling(const PairHost<dim> &host,
-                                      const abut_facet_kind kind,
                                       const SurfacePair<dim> &pair,
                                       const abut_discretisation discretisation)
   {
@@ -27,7 +26,7 @@ namespace abut::shim
     options.discretisation = discretisation;
     if (discretisation_info(discretisation).has_degree)
       options.multiplier_degree =
-          kind == ABUT_FACET_TRI6
+          pair.has_quadratic_triangles
               ? 1
               : static_cast<std::int32_t>(host.method.multiplier_degree);
     options.quadrature_degree =
@@ -96,8 +95,7 @@ namespace abut::shim
 
 #define ABUT_INSTANTIATE(dim)                                                  \
   template Handle<abut_coupling> make_coupling(                                \
-      const PairHost<dim> &, abut_facet_kind, const SurfacePair<dim> &,        \
-      abut_discretisation);                                                    \
+      const PairHost<dim> &, const SurfacePair<dim> &, abut_discretisation);   \
   template void build_points(const PairSet<dim> &, const SurfacePair<dim> &,   \
                              abut_coupling *,                                  \
                              const std::vector<std::uint8_t> &, double,        \

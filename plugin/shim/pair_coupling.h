@@ -9,7 +9,6 @@ namespace abut::shim
   /** The core's coupling of the sides of a pair. */
   template <int dim>
   Handle<abut_coupling> make_coupling(const PairHost<dim> &host,
-                                      abut_facet_kind kind,
                                       const SurfacePair<dim> &pair,
                                       abut_discretisation discretisation);
 

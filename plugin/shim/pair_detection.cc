@@ -124,7 +124,7 @@ namespace abut::shim
       return;
     const auto &facet = surface_.facets[pair.primary.facet[view.primary[i]]];
     place.opposite.assign(facet.node.begin(),
-                          facet.node.begin() + surface_.nodes_per_facet());
+                          facet.node.begin() + facet.n_nodes());
   }
 
   template <int dim>

@@ -162,13 +162,13 @@ namespace abut::shim
       for (std::size_t p = 0; p < points.pairs().size(); ++p)
         for (const std::int32_t f : points.pairs()[p].secondary.facet)
         {
-          const auto &node = points.surface().facets[f].node;
+          const auto &facet = points.surface().facets[f];
+          const auto &node = facet.node;
           const std::size_t first = p * n_nodes;
           bool touches = false;
-          for (unsigned int a = 0; a < points.surface().nodes_per_facet(); ++a)
+          for (unsigned int a = 0; a < facet.n_nodes(); ++a)
             touches = touches || closed[first + node[a]] != 0;
-          for (unsigned int a = 0;
-               a < points.surface().nodes_per_facet() && touches; ++a)
+          for (unsigned int a = 0; a < facet.n_nodes() && touches; ++a)
             if (prescribed[first + node[a]] != 0
                 && points.set().is_owned(node[a]))
               found[first + node[a]] = 1;

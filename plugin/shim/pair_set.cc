@@ -24,15 +24,14 @@ namespace abut::shim
   namespace
   {
     /** Discretisation of a pair, if the parameters leave it open. */
-    abut_discretisation
-    automatic_discretisation(const abut_law &law,
-                             const abut_kinematics_info &kinematics,
-                             const bool at_nodes, const abut_facet_kind kind)
+    abut_discretisation automatic_discretisation(
+        const abut_law &law, const abut_kinematics_info &kinematics,
+        const bool at_nodes, const bool has_quadratic_triangles)
     {
       if (abut_law_needs_stress(&law))
         return ABUT_DISCRETISATION_QUADRATURE_POINT;
       // The corners of quadratic triangles have no weight.
-      if (kind == ABUT_FACET_TRI6)
+      if (has_quadratic_triangles)
         return at_nodes && !kinematics.weighted_obstacle
                        && !abut_law_is_exact(&law)
                        && !abut_law_is_primal_dual(&law)
@@ -148,7 +147,7 @@ namespace abut::shim
                         std::shared_ptr<SurfaceExchange<dim>> exchange)
       : host_(host), exchange_(std::move(exchange))
   {
-    const Message reason = displacement_refusal(host.dof_handler.get_fe());
+    const Message reason = displacement_refusal(host.dof_handler);
     if (!reason.empty())
       throw ContactError(reason);
     const auto pairs = SelfContact<dim>::with_sides(given);
@@ -170,14 +169,17 @@ namespace abut::shim
   {
     SurfacePair<dim> pair;
     pair.data = data;
+    pair.has_quadratic_triangles =
+        exchange_->has_quadratic_triangles(data.secondary);
     const abut_law &law = *host_.method.options.law;
     const abut_kinematics kinematics =
         host_.method.kinematics.value_or(ABUT_KINEMATICS_REFERENCE);
     if (!data.tied)
       pair.set_kinematics(kinematics);
-    pair.discretisation = host_.method.discretisation.value_or(
-        automatic_discretisation(law, kinematics_info(kinematics),
-                                 data.obstacle != nullptr, exchange_->kind()));
+    pair.discretisation =
+        host_.method.discretisation.value_or(automatic_discretisation(
+            law, kinematics_info(kinematics), data.obstacle != nullptr,
+            pair.has_quadratic_triangles));
     const Message reason =
         refusal(law, pair.discretisation, host_.method.system, data.tied);
     if (!reason.empty())
@@ -222,7 +224,7 @@ namespace abut::shim
             ? ""
             : kinematics_refusal(kinematics, law, pair.discretisation,
                                  {data.obstacle != nullptr, data.geometric_gap,
-                                  exchange_->kind() != ABUT_FACET_TRI6});
+                                  !pair.has_quadratic_triangles});
     if (!fixed.empty())
       throw ContactError(about_pair(data.name, fixed, PairField::kinematics));
     pairs_.push_back(std::move(pair));
@@ -443,8 +445,8 @@ namespace abut::shim
                  [&]
                  {
                    check_sides(pair);
-                   pair.coupling = make_coupling(host_, surface_.kind, pair,
-                                                 pair.discretisation);
+                   pair.coupling =
+                       make_coupling(host_, pair, pair.discretisation);
                  });
   }
 

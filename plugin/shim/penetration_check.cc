@@ -287,8 +287,7 @@ namespace abut::shim
             pair.secondary.everywhere.largest / obstacle.depth();
         if (n_widths > 1.)
         {
-          const FacetGrid<dim> grid(
-              points_.surface().kind,
+          FacetGrid<dim> grid(
               static_cast<unsigned int>(std::ceil(std::min(n_widths, most))));
           const auto me = MPI::this_mpi_process(points_.host().communicator);
           for (const std::int32_t f : pair.secondary.facet)
@@ -298,7 +297,7 @@ namespace abut::shim
               continue;
             const auto at = [&](const Points &position)
             {
-              return grid.points([&](const unsigned int a)
+              return grid.points(facet.kind, [&](const unsigned int a)
                                  { return position[facet.node[a]]; });
             };
             const Points start = at(begin), end = at(present_);

@@ -2,6 +2,7 @@
 #include "self_contact.h"
 
 #include "agree.h"
+#include "by_element.h"
 #include "point_to_point.h"
 #include "reference_faces.h"
 #include "saved_words.h"
@@ -80,25 +81,23 @@ namespace abut::shim
     {
       Cell cell;
       unsigned int face;
+      abut_facet_kind kind; ///< of its corners
       BoundaryId id;
       std::array<std::int64_t, max_corners> node;
       std::array<double, max_corners * dim> point;
     };
 
-    abut_facet_kind kind;
-    unsigned int n_corners;
     std::vector<Facet> all; ///< in the order of their cells
 
     /** Corners displaced by @p displacement (owned; null: 0). */
     Facets(const dealii::Mapping<dim> &mapping,
            const dealii::DoFHandler<dim> &dof_handler,
            const std::set<BoundaryId> &ids, const la::Vector *displacement)
-        : kind(dim == 2                           ? ABUT_FACET_LINE2
-               : is_simplex(dof_handler.get_fe()) ? ABUT_FACET_TRI3
-                                                  : ABUT_FACET_QUAD4),
-          n_corners(abut_facet_n_nodes(kind))
     {
-      const ReferenceFaces<dim> faces(dof_handler.get_fe().base_element(0));
+      const ByElement faces_of(dof_handler,
+                               [](const dealii::FiniteElement<dim> &fe) {
+                                 return ReferenceFaces<dim>(fe.base_element(0));
+                               });
       std::vector<Word> words;
       std::vector<std::int64_t> nodes;
       std::vector<double> points;
@@ -111,7 +110,10 @@ namespace abut::shim
             {
               for (const auto word : cell->id().template to_binary<dim>())
                 words.push_back(word);
+              const ReferenceFaces<dim> &faces = faces_of.of(cell);
+              const abut_facet_kind kind = kind_of(cell->get_fe());
               words.push_back(face);
+              words.push_back(kind);
               words.push_back(cell->face(face)->boundary_id());
               for (const unsigned int corner : faces.outward_order(kind, face))
               {
@@ -146,21 +148,31 @@ namespace abut::shim
                 });
     }
 
+    static abut_facet_kind kind_of(const dealii::FiniteElement<dim> &fe)
+    {
+      return dim == 2         ? ABUT_FACET_LINE2
+             : is_simplex(fe) ? ABUT_FACET_TRI3
+                              : ABUT_FACET_QUAD4;
+    }
+
     void read(const std::vector<Word> &words,
               const std::vector<std::int64_t> &nodes,
               const std::vector<double> &points)
     {
-      constexpr std::size_t stride = std::tuple_size_v<Cell> + 2;
+      constexpr std::size_t stride = std::tuple_size_v<Cell> + 3;
+      std::size_t first = 0; // corner
       for (std::size_t f = 0; f < words.size() / stride; ++f)
       {
         Facet facet;
         const Word *word = &words[f * stride];
-        std::copy_n(word, stride - 2, facet.cell.begin());
-        facet.face = static_cast<unsigned int>(word[stride - 2]);
+        std::copy_n(word, stride - 3, facet.cell.begin());
+        facet.face = static_cast<unsigned int>(word[stride - 3]);
+        facet.kind = static_cast<abut_facet_kind>(word[stride - 2]);
         facet.id = static_cast<BoundaryId>(word[stride - 1]);
-        std::copy_n(&nodes[f * n_corners], n_corners, facet.node.begin());
-        std::copy_n(&points[f * n_corners * dim], n_corners * dim,
-                    facet.point.begin());
+        const unsigned int n = abut_facet_n_nodes(facet.kind);
+        std::copy_n(&nodes[first], n, facet.node.begin());
+        std::copy_n(&points[first * dim], n * dim, facet.point.begin());
+        first += n;
         all.push_back(facet);
       }
     }
@@ -173,6 +185,7 @@ namespace abut::shim
     std::vector<std::int64_t> node_id;
     std::vector<double> position;
     std::vector<std::int32_t> connectivity;
+    std::vector<std::uint8_t> kinds;
     Handle<abut_surface> surface;
     abut_surface_sizes sizes;
 
@@ -185,7 +198,8 @@ namespace abut::shim
         if (pair.secondary.count(each.id) == 0)
           continue;
         facet.push_back(&each);
-        for (unsigned int a = 0; a < facets.n_corners; ++a)
+        kinds.push_back(static_cast<std::uint8_t>(each.kind));
+        for (int a = 0; a < abut_facet_n_nodes(each.kind); ++a)
         {
           const auto [it, is_new] =
               place.emplace(each.node[a], static_cast<int>(place.size()));
@@ -202,7 +216,7 @@ namespace abut::shim
                            "id of the surface.");
       abut_surface_data data = abut_surface_data_defaults();
       data.dimension = dim;
-      data.kind = facets.kind;
+      data.kinds = kinds.data();
       data.n_nodes = static_cast<std::int32_t>(node_id.size());
       data.n_facets = static_cast<std::int32_t>(facet.size());
       data.connectivity = connectivity.data();

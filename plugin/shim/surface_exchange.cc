@@ -65,9 +65,9 @@ namespace abut::shim
         hanging_(hanging_nodes(dof_handler)),
         post_(versions::communicator(dof_handler)),
         owners_(dof_handler.locally_owned_dofs(),
-                versions::communicator(dof_handler))
+                versions::communicator(dof_handler)),
+        cell_facets_(dof_handler, facets_of)
   {
-    tabulate();
     collect();
     number_own();
     announce();
@@ -115,17 +115,44 @@ namespace abut::shim
     links_.clear();
   }
 
-  template <int dim> void SurfaceExchange<dim>::tabulate()
+  template <int dim>
+  std::set<abut_facet_kind> SurfaceExchange<dim>::kinds() const
   {
-    const auto &fe = dof_handler_.get_fe();
+    std::set<abut_facet_kind> result;
+    for (const auto &facets : cell_facets_.all())
+      result.insert(facets->kind);
+    return result;
+  }
+
+  template <int dim>
+  bool SurfaceExchange<dim>::has_quadratic_triangles(
+      const std::set<dealii::types::boundary_id> &ids) const
+  {
+    if (kinds().count(ABUT_FACET_TRI6) == 0)
+      return false;
+    const bool mine =
+        std::any_of(own_.begin(), own_.end(),
+                    [&](const FacetRecord &record)
+                    {
+                      return record.facet.kind == ABUT_FACET_TRI6
+                             && ids.count(record.facet.boundary_id) > 0;
+                    });
+    return MPI::logical_or(mine, post_.communicator());
+  }
+
+  template <int dim>
+  typename SurfaceExchange<dim>::CellFacets
+  SurfaceExchange<dim>::facets_of(const dealii::FiniteElement<dim> &fe)
+  {
     const ReferenceFaces<dim> faces(fe.base_element(0));
-    kind_ = facet_kind(fe, fe.base_element(0).degree);
-    const unsigned int n_nodes = abut_facet_n_nodes(kind_);
-    cell_dof_.assign(fe.reference_cell().n_faces(),
-                     std::vector<std::array<unsigned int, dim>>(n_nodes));
-    for (unsigned int face = 0; face < cell_dof_.size(); ++face)
+    CellFacets result;
+    result.kind = facet_kind(fe, fe.base_element(0).degree);
+    const unsigned int n_nodes = abut_facet_n_nodes(result.kind);
+    result.dof.assign(fe.reference_cell().n_faces(),
+                      std::vector<std::array<unsigned int, dim>>(n_nodes));
+    for (unsigned int face = 0; face < result.dof.size(); ++face)
     {
-      const auto order = faces.outward_order(kind_, face);
+      const auto order = faces.outward_order(result.kind, face);
       std::vector<unsigned int> place(n_nodes);
       for (unsigned int a = 0; a < n_nodes; ++a)
         place[order[a]] = a;
@@ -133,20 +160,22 @@ namespace abut::shim
       {
         const auto part = fe.face_system_to_component_index(i, face);
         if (part.first < dim)
-          cell_dof_[face][place[part.second]][part.first] =
+          result.dof[face][place[part.second]][part.first] =
               fe.face_to_cell_index(i, face);
       }
     }
+    return result;
   }
 
   template <int dim> void SurfaceExchange<dim>::collect()
   {
-    std::vector<Index> dofs(dof_handler_.get_fe().n_dofs_per_cell());
+    std::vector<Index> dofs;
     for (const auto &cell : dof_handler_.active_cell_iterators())
     {
       if (!cell->is_locally_owned() || !cell->at_boundary())
         continue;
-      cell->get_dof_indices(dofs);
+      get_dofs(cell, dofs);
+      const CellFacets &facets = cell_facets_.of(cell);
       for (const unsigned int face : cell->face_indices())
       {
         if (!cell->at_boundary(face)
@@ -155,10 +184,11 @@ namespace abut::shim
         FacetRecord record;
         record.facet.cell = cell->id().template to_binary<dim>();
         record.facet.face = face;
+        record.facet.kind = facets.kind;
         record.facet.boundary_id = self_contact_.id(
             record.facet.cell, face, cell->face(face)->boundary_id());
         record.facet.owner = MPI::this_mpi_process(post_.communicator());
-        for (const auto &local : cell_dof_[face])
+        for (const auto &local : facets.dof[face])
         {
           const Index dof = dofs[local[0]];
           record.nodes.push_back(dof);
@@ -304,10 +334,7 @@ namespace abut::shim
 
   template <int dim> void SurfaceExchange<dim>::describe()
   {
-    const auto &fe = dof_handler_.get_fe();
-    // Other fields than the displacement may have no support points.
-    const auto &nodes_of_cell = fe.base_element(0).get_unit_support_points();
-    std::vector<Index> dofs(fe.n_dofs_per_cell());
+    std::vector<Index> dofs;
     // Nodes that others hang on need not be on the boundary.
     for (const bool at_boundary : {true, false})
       for (const auto &cell : dof_handler_.active_cell_iterators())
@@ -316,8 +343,12 @@ namespace abut::shim
           return;
         if (cell->is_artificial() || cell->at_boundary() != at_boundary)
           continue;
-        cell->get_dof_indices(dofs);
-        for (const auto &nodes : cell_dof_)
+        get_dofs(cell, dofs);
+        const auto &fe = cell->get_fe();
+        // Other fields than the displacement may have no support points.
+        const auto &nodes_of_cell =
+            fe.base_element(0).get_unit_support_points();
+        for (const auto &nodes : cell_facets_.of(cell).dof)
           for (const auto &local : nodes)
           {
             const Index first = dofs[local[0]];
@@ -399,7 +430,8 @@ namespace abut::shim
     for (const auto word : facet.cell)
       parcel.write(static_cast<std::int64_t>(word));
     parcel.write(std::int64_t(facet.owner) << 32 | facet.boundary_id);
-    parcel.write(std::int64_t(record.parents.size()) << 8 | facet.face);
+    parcel.write(std::int64_t(record.parents.size()) << 16 | facet.kind << 8
+                 | facet.face);
     for (const auto *list : {&record.nodes, &record.parents})
       for (const Index node : *list)
         parcel.write(node);
@@ -419,8 +451,9 @@ namespace abut::shim
     facet.boundary_id = static_cast<dealii::types::boundary_id>(
         static_cast<std::uint32_t>(place));
     facet.face = face & 255;
-    record.nodes.resize(abut_facet_n_nodes(kind_));
-    record.parents.resize(face >> 8);
+    facet.kind = static_cast<abut_facet_kind>(face >> 8 & 255);
+    record.nodes.resize(abut_facet_n_nodes(facet.kind));
+    record.parents.resize(face >> 16);
     for (auto *list : {&record.nodes, &record.parents})
       for (Index &node : *list)
         node = parcel.read();

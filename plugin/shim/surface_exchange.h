@@ -2,6 +2,7 @@
 #ifndef ABUT_SHIM_SURFACE_EXCHANGE_H
 #define ABUT_SHIM_SURFACE_EXCHANGE_H
 
+#include "by_element.h"
 #include "contact_surface.h"
 #include "handles.h"
 #include "point_to_point.h"
@@ -72,10 +73,13 @@ namespace abut::shim
       return boundary_ids_;
     }
 
-    abut_facet_kind kind() const
-    {
-      return kind_;
-    }
+    /** Kinds that facets of the mesh may have. */
+    std::set<abut_facet_kind> kinds() const;
+
+    /** Whether a facet with these boundary ids on any rank is a triangle of
+     * degree 2. Collective. */
+    bool has_quadratic_triangles(
+        const std::set<dealii::types::boundary_id> &ids) const;
 
     /** Which facets are on the primary side of their own surface. */
     const SelfContact<dim> &self_contact() const
@@ -198,7 +202,6 @@ namespace abut::shim
 
     /** Let facets have the ids of their sides. */
     void assign_sides();
-    void tabulate();
     void collect();
     void number_own();
     void announce();
@@ -252,9 +255,15 @@ namespace abut::shim
     const dealii::AffineConstraints<double> hanging_;
     PointToPoint post_;
     const Owners owners_;
-    abut_facet_kind kind_;
-    /** [faces of a cell][nodes of a facet][component] unknown of the cell. */
-    std::vector<std::vector<std::array<unsigned int, dim>>> cell_dof_;
+    /** The facets of the cells of an element. */
+    struct CellFacets
+    {
+      abut_facet_kind kind;
+      /** [faces of a cell][nodes of a facet][component] unknown of the cell. */
+      std::vector<std::vector<std::array<unsigned int, dim>>> dof;
+    };
+    static CellFacets facets_of(const dealii::FiniteElement<dim> &fe);
+    const ByElement<CellFacets> cell_facets_;
 
     std::vector<FacetRecord> own_; ///< in the order of their numbers
     std::int64_t n_facets_everywhere_ = 0;

@@ -44,6 +44,8 @@ namespace abut::shim
   template <int dim> struct SurfacePair
   {
     ContactPair<dim> data;
+    /** On its secondary, of any rank. */
+    bool has_quadratic_triangles = false;
     abut_kinematics kinematics = ABUT_KINEMATICS_REFERENCE;
     /** Configurations that it makes points in, and that its directions and
      * gaps refer to. */

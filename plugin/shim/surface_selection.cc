@@ -47,9 +47,13 @@ namespace abut::shim
 
     std::unordered_map<Index, std::int32_t> place;
     std::vector<std::int32_t> connectivity;
+    std::vector<std::uint8_t> kinds;
     std::vector<double> position;
     for (const std::int64_t number : part.number)
-      for (const Index node : facets_.at(number).nodes)
+    {
+      const FacetRecord &record = facets_.at(number);
+      kinds.push_back(static_cast<std::uint8_t>(record.facet.kind));
+      for (const Index node : record.nodes)
       {
         const auto entry = place.emplace(node, place.size());
         connectivity.push_back(entry.first->second);
@@ -63,9 +67,10 @@ namespace abut::shim
         for (unsigned int d = 0; d < dim; ++d)
           position.push_back(point[d]);
       }
+    }
     abut_surface_data data = abut_surface_data_defaults();
     data.dimension = dim;
-    data.kind = kind_;
+    data.kinds = kinds.data();
     data.n_nodes = static_cast<std::int32_t>(place.size());
     data.n_facets = static_cast<std::int32_t>(part.number.size());
     data.connectivity = connectivity.data();
@@ -327,7 +332,6 @@ namespace abut::shim
   template <int dim> ContactSurface<dim> SurfaceExchange<dim>::arrange() const
   {
     ContactSurface<dim> surface;
-    surface.kind = kind_;
     surface.n_facets_everywhere = n_facets_everywhere_;
     surface.node_number_end =
         n_facets_everywhere_ * ContactSurface<dim>::max_nodes

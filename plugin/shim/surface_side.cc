@@ -27,7 +27,7 @@ namespace abut::shim
     {
       std::vector<std::int32_t> nodes;
       for (const std::int32_t f : facets)
-        for (unsigned int a = 0; a < whole.nodes_per_facet(); ++a)
+        for (unsigned int a = 0; a < whole.facets[f].n_nodes(); ++a)
         {
           const std::int32_t n = whole.facets[f].node[a];
           nodes.push_back(n);
@@ -78,17 +78,21 @@ namespace abut::shim
         side.position.push_back(whole.nodes[n].point[d]);
 
     std::vector<std::int32_t> connectivity;
+    std::vector<std::uint8_t> kinds;
     for (const std::int32_t f : side.facet)
-      for (unsigned int a = 0; a < whole.nodes_per_facet(); ++a)
+      for (unsigned int a = 0; a < whole.facets[f].n_nodes(); ++a)
         connectivity.push_back(side.local_node(whole.facets[f].node[a]));
     std::vector<std::int64_t> node_id, facet_id;
     for (const std::int32_t n : side.node)
       node_id.push_back(whole.nodes[n].number);
     for (const std::int32_t f : side.facet)
+    {
       facet_id.push_back(whole.facets[f].number);
+      kinds.push_back(static_cast<std::uint8_t>(whole.facets[f].kind));
+    }
     abut_surface_data data = abut_surface_data_defaults();
     data.dimension = dim;
-    data.kind = whole.kind;
+    data.kinds = kinds.data();
     data.n_nodes = side.n_nodes();
     data.n_facets = side.n_facets();
     data.connectivity = connectivity.data();
@@ -186,7 +190,8 @@ namespace abut::shim
     std::vector<double> lower(dim, INFINITY), upper(dim, -INFINITY);
     for (int f = 0; f < side.n_facets(); ++f)
     {
-      if (whole.facets[side.facet[f]].owner != me)
+      const auto &facet = whole.facets[side.facet[f]];
+      if (facet.owner != me)
         continue;
       std::vector<double> nodes;
       for (int e = view.facet_start[f]; e < view.facet_start[f + 1]; ++e)
@@ -198,10 +203,10 @@ namespace abut::shim
           upper[d] = std::max(upper[d], x);
         }
       abut_facet_measures measures;
-      if (abut_facet_measure(whole.kind, nodes.data(), &measures)
+      if (abut_facet_measure(facet.kind, nodes.data(), &measures)
           == ABUT_SUCCESS)
         result.area += measures.area;
-      sizes.push_back(abut_facet_size(whole.kind, nodes.data()));
+      sizes.push_back(abut_facet_size(facet.kind, nodes.data()));
     }
     result.n_facets = MPI::sum(std::int64_t(sizes.size()), communicator);
     result.area = MPI::sum(result.area, communicator);

@@ -2,6 +2,7 @@
 #include "surface_stress.h"
 
 #include "agree.h"
+#include "by_element.h"
 #include "reference_faces.h"
 
 #include <deal.II/grid/cell_id.h>
@@ -94,10 +95,11 @@ namespace abut::shim
       const PairHost<dim> &host = points.host();
       const abut_points_view &view = points.view();
       const std::vector<PointPlace<dim>> &places = points.places();
-      const unsigned int n_dofs = host.dof_handler.get_fe().n_dofs_per_cell();
-      const ReferenceFaces<dim> faces(
-          host.dof_handler.get_fe().base_element(0));
-      std::vector<global_dof_index> dofs(n_dofs);
+      const ByElement faces_of(host.dof_handler,
+                               [](const dealii::FiniteElement<dim> &fe) {
+                                 return ReferenceFaces<dim>(fe.base_element(0));
+                               });
+      std::vector<global_dof_index> dofs;
       CellNodes nodes(host.constraints);
       for (std::size_t first = 0, end; first < places.size(); first = end)
       {
@@ -118,15 +120,15 @@ namespace abut::shim
         for (std::size_t i = first; i < end; ++i)
         {
           samples.push_back(
-              faces.inside(host.mapping.transform_real_to_unit_cell(
+              faces_of.of(cell).inside(host.mapping.transform_real_to_unit_cell(
                   cell, places[i].position)));
           for (unsigned int d = 0; d < dim; ++d)
             normals[i - first][d] =
                 view.frame[view.component_start[i] * std::size_t(dim) + d];
         }
-        dealii::FullMatrix<double> derivative((end - first) * dim, n_dofs);
+        get_dofs(cell, dofs);
+        dealii::FullMatrix<double> derivative((end - first) * dim, dofs.size());
         traction.evaluate(cell, samples, normals, derivative);
-        cell->get_dof_indices(dofs);
         for (std::size_t i = first; i < end; ++i)
           for (std::int32_t row = view.component_start[i];
                row < view.component_start[i + 1]; ++row)

@@ -30,8 +30,7 @@ namespace abut::shim
       { return points.surface().nodes[node].dof[0]; };
       la::Vector exact = SurfaceFields<dim>(points).field();
       const Handle<abut_coupling> mortar =
-          make_coupling(points.host(), points.surface().kind, pair,
-                        ABUT_DISCRETISATION_MORTAR);
+          make_coupling(points.host(), pair, ABUT_DISCRETISATION_MORTAR);
       const Handle<abut_points> mortar_points =
           create_points(points.host().context, dim);
       abut_coupling_target target =

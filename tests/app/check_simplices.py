@@ -467,15 +467,11 @@ def check_refusals():
             ({"Refinement/Coarsen fraction": 0.1,
               "Refinement/Adaptive cycles": 1},
              "Refinement/Coarsen fraction", "has no effect"),
-            ({file: one_cell("hex.msh", 5, 8)}, "tetrahedra", "hexahedra",
-             "one kind of cells"),
             ({file: one_cell("wedge.msh", 6, 6)}, file, "wedge")):
         refused("slider.prm", settings, *texts)
     p.write("slider.prm", slider(2))
     mixed = one_cell("mixed.msh", 3, 4, faces=[(2, (0, 1, 2))])
     refused("slider.prm", {file: mixed}, file, "one kind")
-    refused("slider.prm", {file: "", "Body 1/Mesh/Generator": "hyper_cube"},
-            "triangles", "quadrilaterals")
     p.write("membrane.prm", "set Scene = obstacle\nset Dimension = 2\n"
             + section("Mesh", "File = box-2-1.msh")
             + section("Contact", "Obstacle = -1"))

@@ -2,6 +2,7 @@
 // Cells, elements and methods for which there is no contact are refused, on all
 // ranks and with the reason.
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/mapping_by_cell.h>
 #include <abut/dealii/rigid_obstacle.h>
 #include <abut/dealii/versions.h>
 
@@ -122,7 +123,7 @@ namespace
                             Cube cube(FESystem<3>(FE_WedgeP<3>(1), 3));
                             cube.reinit();
                           });
-    refuses<ContactError>("cells of one kind",
+    refuses<ContactError>("for the same kind",
                           [&]
                           {
                             Cube cube(linear);
@@ -131,6 +132,47 @@ namespace
                                 hp::FECollection<3>(linear, linear));
                             cube.reinit();
                           });
+  }
+
+  /** A cube beside a tetrahedron. */
+  void refuse_mixtures()
+  {
+    const FESystem<3> cubes(FE_Q<3>(1), 3), simplices(FE_SimplexP<3>(1), 3);
+    const auto reinit = [&](const Mapping<3> &mapping)
+    {
+      Triangulation<3> cube;
+      GridGenerator::hyper_cube(cube);
+      std::vector<Point<3>> vertices = cube.get_vertices();
+      std::vector<CellData<3>> cells(2, CellData<3>(4));
+      cells[0] = CellData<3>(8);
+      for (unsigned int v = 0; v < 8; ++v)
+        cells[0].vertices[v] = v;
+      for (unsigned int v = 0; v < 4; ++v)
+      {
+        cells[1].vertices[v] = 8 + v;
+        vertices.emplace_back(v == 1 ? 3. : 2., v == 2, v == 3);
+      }
+      Mesh mesh(MPI_COMM_WORLD, Triangulation<3>::none, true,
+                Mesh::partition_zorder);
+      mesh.create_triangulation(vertices, cells, SubCellData());
+      DoFHandler<3> dofs(mesh);
+      for (const auto &cell : dofs.active_cell_iterators())
+        if (cell->is_locally_owned())
+          cell->set_active_fe_index(cell->reference_cell().is_hyper_cube() ? 0
+                                                                           : 1);
+      dofs.distribute_dofs(hp::FECollection<3>(cubes, simplices));
+      AffineConstraints<double> constraints;
+      constraints.close();
+      ContactAssembler<3> contact(MPI_COMM_WORLD);
+      contact.reinit(mapping, dofs, constraints);
+    };
+    const MappingQ<3> bricks(1);
+    const MappingFE<3> linear(FE_SimplexP<3>(1));
+    const MappingByCell<3> both(hp::MappingCollection<3>(bricks, linear));
+    for (const Mapping<3> *one : {static_cast<const Mapping<3> *>(&bricks),
+                                  static_cast<const Mapping<3> *>(&linear)})
+      refuses<ContactError>("abut::MappingByCell", [&] { reinit(*one); });
+    reinit(both);
   }
 
   void refuse_elements()
@@ -188,6 +230,7 @@ main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   refuse_cells();
+  refuse_mixtures();
   refuse_elements();
   refuse_methods();
   if (!good)

@@ -40,6 +40,17 @@ namespace
     return one;
   }
 
+  /** Triangles or tetrahedra below, quadrilaterals or hexahedra above, or with
+   * @p swapped the other way round. */
+  hosts::Case mixed(const unsigned int degree, const unsigned int cube_degree,
+                    const std::array<unsigned int, 2> &cells,
+                    const bool swapped = false)
+  {
+    hosts::Case one = make(!swapped, swapped ? cube_degree : degree, cells);
+    one.other_degree = swapped ? degree : cube_degree;
+    return one;
+  }
+
   hosts::Case with_mortar(hosts::Case one)
   {
     one.method = hosts::method("lagrange", ABUT_DISCRETISATION_MORTAR);
@@ -60,6 +71,11 @@ namespace
     run<3, Mesh3>(make(true, 1, {{2, 3}}), mesh + ", tetrahedra");
     run<3, Mesh3>(make(true, 2, {{1, 2}}), mesh + ", quadratic tetrahedra");
     run<3, Mesh3>(make(false, 1, {{2, 3}}), mesh + ", hexahedra");
+    run<2, Mesh2>(mixed(2, 1, {{2, 3}}),
+                  mesh + ", triangles and quadrilaterals");
+    run<3, Mesh3>(mixed(1, 1, {{2, 3}}), mesh + ", tetrahedra and hexahedra");
+    run<3, Mesh3>(mixed(2, 1, {{1, 2}}, true),
+                  mesh + ", hexahedra and quadratic tetrahedra");
   }
 
   void run_methods()
@@ -77,6 +93,20 @@ namespace
       hosts::Case one = make(true, degree, {{3, 4}});
       one.uniform = false;
       run<2, Mesh2>(one, "triangles with hanging nodes" + name);
+      for (const unsigned int cube_degree : {1, 2})
+      {
+        const std::string both =
+            name + " and cubes of degree " + std::to_string(cube_degree);
+        run<2, Mesh2>(with_mortar(mixed(degree, cube_degree, {{3, 4}})),
+                      "triangles" + both);
+        hosts::Case hanging = mixed(degree, cube_degree, {{3, 4}});
+        hanging.uniform = false;
+        run<2, Mesh2>(hanging, "with hanging nodes, triangles" + both);
+        run<3, Mesh3>(with_mortar(mixed(degree, cube_degree, {{1, 2}})),
+                      "tetrahedra" + both);
+      }
+      run<3, Mesh3>(tied(mixed(degree, 1, {{1, 2}})),
+                    "tied tetrahedra and hexahedra" + name);
     }
   }
 

@@ -11,6 +11,7 @@
  */
 
 #include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/mapping_by_cell.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -21,6 +22,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/hp/fe_collection.h>
 
 #include <array>
 #include <cmath>
@@ -151,25 +153,6 @@ namespace abut::hosts
     return dealii::QGauss<dim>(degree + 1);
   }
 
-  /** Linear cells. */
-  template <int dim>
-  std::unique_ptr<const dealii::Mapping<dim>> make_mapping(const bool simplices)
-  {
-    if (simplices)
-      return std::make_unique<dealii::MappingFE<dim>>(
-          dealii::FE_SimplexP<dim>(1));
-    return std::make_unique<dealii::MappingQ<dim>>(1);
-  }
-
-  template <int dim>
-  dealii::FESystem<dim> make_element(const bool simplices,
-                                     const unsigned int degree)
-  {
-    if (simplices)
-      return dealii::FESystem<dim>(dealii::FE_SimplexP<dim>(degree), dim);
-    return dealii::FESystem<dim>(dealii::FE_Q<dim>(degree), dim);
-  }
-
   /** What is varied. */
   struct Case
   {
@@ -200,8 +183,17 @@ namespace abut::hosts
     std::array<unsigned int, 2> cells = {{3, 4}};
     /** Triangles and tetrahedra, of which nodes are not equally far apart. */
     bool simplices = false;
+    /** The upper block is of the other cells, of this degree; 0: both blocks
+     * are of the same. */
+    unsigned int other_degree = 0;
     /** No cell is refined, so that no node hangs. */
     bool uniform = false;
+
+    /** Of block 0 or 1. */
+    bool has_simplices(const int block) const
+    {
+      return simplices != (block == 1 && other_degree > 0);
+    }
 
     bool has_hanging_nodes() const
     {
@@ -260,7 +252,7 @@ namespace abut::hosts
     /** Forget what contact has found. */
     void forget()
     {
-      contact_.reinit(*mapping_, dof_handler_, constraints_);
+      contact_.reinit(mapping_, dof_handler_, constraints_);
     }
 
     /** Start from 0, with the prescribed displacements. */
@@ -314,6 +306,10 @@ namespace abut::hosts
     /** Some cells at the interface and in the bulk of both blocks. */
     void refine();
 
+    const dealii::hp::MappingCollection<dim> &make_collections();
+
+    void add_element(bool simplices, unsigned int degree);
+
     void setup();
 
     /** Top and bottom follow the exact displacement. */
@@ -346,8 +342,12 @@ namespace abut::hosts
     const Case run_;
     const std::unique_ptr<Mesh> triangulation_;
     const MPI_Comm communicator_;
-    const dealii::FESystem<dim> fe_;
-    const std::unique_ptr<const dealii::Mapping<dim>> mapping_;
+    /** By block, or one for both. */
+    dealii::hp::FECollection<dim> fe_;
+    dealii::hp::QCollection<dim> points_;
+    dealii::hp::QCollection<dim - 1> face_points_;
+    dealii::hp::MappingCollection<dim> mappings_;
+    const MappingByCell<dim> mapping_;
     const Tensor<2, dim> rotation_;
     dealii::DoFHandler<dim> dof_handler_;
     dealii::IndexSet owned_, relevant_;

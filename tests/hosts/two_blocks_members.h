@@ -12,10 +12,10 @@
 #include <abut/dealii/versions.h>
 
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
+#include <deal.II/hp/fe_values.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools.h>
 
@@ -26,12 +26,40 @@ namespace abut::hosts
       : run_(run),
         triangulation_(make_triangulation(communicator)),
         communicator_(abut::versions::communicator(*triangulation_)),
-        fe_(make_element<dim>(run.simplices, run.degree)),
-        mapping_(make_mapping<dim>(run.simplices)),
+        mapping_(make_collections()),
         rotation_(rotation<dim>(!run.pressed)),
         dof_handler_(*triangulation_),
         contact_(communicator_)
   {
+  }
+
+  template <int dim, class Mesh>
+  const dealii::hp::MappingCollection<dim> &
+  TwoBlocks<dim, Mesh>::make_collections()
+  {
+    add_element(run_.simplices, run_.degree);
+    if (run_.other_degree > 0)
+      add_element(!run_.simplices, run_.other_degree);
+    return mappings_;
+  }
+
+  template <int dim, class Mesh>
+  void TwoBlocks<dim, Mesh>::add_element(const bool simplices,
+                                         const unsigned int degree)
+  {
+    if (simplices)
+    {
+      fe_.push_back(
+          dealii::FESystem<dim>(dealii::FE_SimplexP<dim>(degree), dim));
+      mappings_.push_back(dealii::MappingFE<dim>(dealii::FE_SimplexP<dim>(1)));
+    }
+    else
+    {
+      fe_.push_back(dealii::FESystem<dim>(dealii::FE_Q<dim>(degree), dim));
+      mappings_.push_back(dealii::MappingQ<dim>(1));
+    }
+    points_.push_back(rule<dim>(simplices, degree));
+    face_points_.push_back(rule<dim - 1>(simplices, degree));
   }
 
   template <int dim, class Mesh>
@@ -58,7 +86,7 @@ namespace abut::hosts
     SolverParameters solver;
     solver.linear = SolverParameters::Linear::direct;
     contact_.set_parameters(run_.method, solver);
-    contact_.reinit(*mapping_, dof_handler_, constraints_);
+    contact_.reinit(mapping_, dof_handler_, constraints_);
   }
 
   template <int dim, class Mesh>
@@ -68,14 +96,16 @@ namespace abut::hosts
     Tensor<1, dim> normal;
     normal[dim - 1] = lift;
     normal = rotation_ * normal;
-    std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (!cell->is_artificial() && cell->material_id() == 1)
       {
+        dofs.resize(cell->get_fe().n_dofs_per_cell());
         cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
           if (owned_.is_element(dofs[i]))
-            u(dofs[i]) = normal[fe_.system_to_component_index(i).first];
+            u(dofs[i]) =
+                normal[cell->get_fe().system_to_component_index(i).first];
       }
     u.compress(dealii::VectorOperation::insert);
     return u;
@@ -180,14 +210,15 @@ namespace abut::hosts
   la::Vector TwoBlocks<dim, Mesh>::sideways(const double way) const
   {
     la::Vector u(owned_, communicator_);
-    std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (!cell->is_artificial() && cell->material_id() == 1)
       {
+        dofs.resize(cell->get_fe().n_dofs_per_cell());
         cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
           if (owned_.is_element(dofs[i])
-              && fe_.system_to_component_index(i).first == 0)
+              && cell->get_fe().system_to_component_index(i).first == 0)
             u(dofs[i]) = way;
       }
     u.compress(dealii::VectorOperation::insert);
@@ -208,7 +239,7 @@ namespace abut::hosts
       upper[dim - 1] = block;
       dealii::Triangulation<dim> part;
       const std::vector<unsigned int> n_cells(dim, run_.cells[block]);
-      if (run_.simplices)
+      if (run_.has_simplices(block))
         dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(
             part, n_cells, lower, upper);
       else
@@ -225,7 +256,7 @@ namespace abut::hosts
         }
       part.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
       auto [v, c, f] = dealii::GridTools::get_coarse_mesh_description(part);
-      if (run_.simplices)
+      if (run_.has_simplices(block))
         for (Point<dim> &p : v)
           for (int d = 0; d < dim - 1; ++d)
             p[d] += (block == 0 ? 0.2 : -0.3) * p[d] * (1. - p[d]);
@@ -308,6 +339,9 @@ namespace abut::hosts
 
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::setup()
   {
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      if (cell->is_locally_owned() && run_.other_degree > 0)
+        cell->set_active_fe_index(cell->material_id());
     dof_handler_.distribute_dofs(fe_);
     owned_ = dof_handler_.locally_owned_dofs();
     relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
@@ -331,16 +365,16 @@ namespace abut::hosts
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::move_ends()
   {
     dealii::VectorTools::interpolate_boundary_values(
-        *mapping_, dof_handler_, bottom,
-        ExactDisplacement<dim>(material(false)), constraints_);
+        mapping_, dof_handler_, bottom, ExactDisplacement<dim>(material(false)),
+        constraints_);
     Tensor<1, dim> shift;
     shift[0] = run_.aside;
     dealii::VectorTools::interpolate_boundary_values(
-        *mapping_, dof_handler_, top,
+        mapping_, dof_handler_, top,
         ExactDisplacement<dim>(material(true), shift), constraints_);
     if (run_.is_die)
       dealii::VectorTools::interpolate_boundary_values(
-          *mapping_, dof_handler_, upper_interface,
+          mapping_, dof_handler_, upper_interface,
           dealii::Functions::ZeroFunction<dim>(dim), constraints_);
   }
 
@@ -349,7 +383,7 @@ namespace abut::hosts
     dealii::ComponentMask up(dim, false);
     up.set(dim - 1, true);
     dealii::VectorTools::interpolate_boundary_values(
-        *mapping_, dof_handler_, bottom,
+        mapping_, dof_handler_, bottom,
         dealii::Functions::ZeroFunction<dim>(dim), constraints_, up);
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (!cell->is_artificial())
@@ -367,21 +401,21 @@ namespace abut::hosts
 
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::press()
   {
-    const auto quadrature = rule<dim - 1>(run_.simplices, run_.degree);
-    dealii::FEFaceValues<dim> values(*mapping_, fe_, quadrature,
-                                     dealii::update_values
-                                         | dealii::update_JxW_values);
-    dealii::Vector<double> force(fe_.n_dofs_per_cell());
-    std::vector<dealii::types::global_dof_index> dofs(force.size());
+    dealii::hp::FEFaceValues<dim> all_values(mappings_, fe_, face_points_,
+                                             dealii::update_values
+                                                 | dealii::update_JxW_values);
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && face->boundary_id() == top)
           {
-            values.reinit(cell, face);
-            force = 0.;
+            all_values.reinit(cell, cell->face_iterator_to_index(face));
+            const auto &values = all_values.get_present_fe_values();
+            dofs.resize(cell->get_fe().n_dofs_per_cell());
+            dealii::Vector<double> force(dofs.size());
             for (unsigned int i = 0; i < force.size(); ++i)
-              for (unsigned int q = 0; q < quadrature.size(); ++q)
+              for (const unsigned int q : values.quadrature_point_indices())
                 force(i) -=
                     values.shape_value_component(i, q, dim - 1) * values.JxW(q);
             cell->get_dof_indices(dofs);
@@ -392,23 +426,23 @@ namespace abut::hosts
 
   template <int dim, class Mesh> void TwoBlocks<dim, Mesh>::assemble()
   {
-    const auto quadrature = rule<dim>(run_.simplices, run_.degree);
-    dealii::FEValues<dim> values(*mapping_, fe_, quadrature,
-                                 dealii::update_gradients
-                                     | dealii::update_JxW_values);
+    dealii::hp::FEValues<dim> all_values(mappings_, fe_, points_,
+                                         dealii::update_gradients
+                                             | dealii::update_JxW_values);
     const dealii::FEValuesExtractors::Vector displacement(0);
-    const unsigned int n = fe_.n_dofs_per_cell();
-    dealii::FullMatrix<double> matrix(n, n);
-    std::vector<dealii::types::global_dof_index> dofs(n);
+    std::vector<dealii::types::global_dof_index> dofs;
     dealii::AffineConstraints<double> homogeneous;
     abut::versions::reinit(homogeneous, owned_, relevant_);
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         const Material &m = material(cell->material_id() == 1);
-        values.reinit(cell);
-        matrix = 0.;
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        all_values.reinit(cell);
+        const auto &values = all_values.get_present_fe_values();
+        const unsigned int n = cell->get_fe().n_dofs_per_cell();
+        dofs.resize(n);
+        dealii::FullMatrix<double> matrix(n, n);
+        for (const unsigned int q : values.quadrature_point_indices())
           for (unsigned int i = 0; i < n; ++i)
           {
             const auto e = values[displacement].symmetric_gradient(i, q);
@@ -464,14 +498,13 @@ namespace abut::hosts
                                             Errors &errors) const
   {
     const double p = mean_pressure(errors);
-    const auto quadrature = rule<dim>(run_.simplices, run_.degree);
-    dealii::FEValues<dim> values(*mapping_, fe_, quadrature,
-                                 dealii::update_gradients
-                                     | dealii::update_values
-                                     | dealii::update_quadrature_points);
+    dealii::hp::FEValues<dim> all_values(
+        mappings_, fe_, points_,
+        dealii::update_gradients | dealii::update_values
+            | dealii::update_quadrature_points);
     const dealii::FEValuesExtractors::Vector displacement(0);
-    std::vector<dealii::SymmetricTensor<2, dim>> strain(quadrature.size());
-    std::vector<Tensor<1, dim>> value(quadrature.size());
+    std::vector<dealii::SymmetricTensor<2, dim>> strain;
+    std::vector<Tensor<1, dim>> value;
     Tensor<1, dim> normal;
     normal[dim - 1] = 1.;
     normal = rotation_ * normal;
@@ -481,10 +514,13 @@ namespace abut::hosts
       {
         const Material &m = material(cell->material_id() == 1);
         const ExactDisplacement<dim> exact(m);
-        values.reinit(cell);
+        all_values.reinit(cell);
+        const auto &values = all_values.get_present_fe_values();
+        strain.resize(values.n_quadrature_points);
+        value.resize(values.n_quadrature_points);
         values[displacement].get_function_symmetric_gradients(u, strain);
         values[displacement].get_function_values(u, value);
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        for (const unsigned int q : values.quadrature_point_indices())
         {
           dealii::SymmetricTensor<2, dim> stress = 2. * m.mu() * strain[q];
           for (int i = 0; i < dim; ++i)
@@ -522,22 +558,23 @@ namespace abut::hosts
     normal = rotation_ * normal;
     const auto side =
         run_.upper_is_secondary ? upper_interface : lower_interface;
-    std::vector<dealii::types::global_dof_index> dofs(fe_.n_dofs_per_face());
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && face->boundary_id() == side)
           {
-            face->get_dof_indices(dofs);
+            const auto &fe = cell->get_fe();
+            dofs.resize(fe.n_dofs_per_face());
+            face->get_dof_indices(dofs, cell->active_fe_index());
             for (unsigned int i = 0; i < dofs.size(); ++i)
               if (has(dofs[i]) > 0.)
                 errors.pressure = std::max(
                     errors.pressure,
-                    std::abs(
-                        pressure(dofs[i])
-                        - mean
-                              * normal[fe_.face_system_to_component_index(i)
-                                           .first]));
+                    std::abs(pressure(dofs[i])
+                             - mean
+                                   * normal[fe.face_system_to_component_index(i)
+                                                .first]));
           }
     errors.pressure = MPI::max(errors.pressure, communicator_);
   }

@@ -62,6 +62,32 @@ namespace abut::app
   }
 
   template <int dim>
+  bool BodyMeshes<dim>::may_have_simplices(
+      const std::string &surface,
+      const std::vector<BodyParameters> &bodies) const
+  {
+    for (const std::string &part : split_list(surface, ';'))
+    {
+      const std::string word =
+          dealii::Utilities::trim(part.substr(0, part.find(':')));
+      bool is_known = false;
+      for (std::size_t body = 0; body < meshes.size(); ++body)
+      {
+        const std::vector<std::string> &names = extras[body].body_names;
+        const bool is_meant =
+            word == std::to_string(body + 1) || word == bodies[body].name
+            || std::find(names.begin(), names.end(), word) != names.end();
+        if (is_meant && are_simplices(body))
+          return true;
+        is_known = is_known || is_meant;
+      }
+      if (!is_known)
+        return true;
+    }
+    return false;
+  }
+
+  template <int dim>
   BodyMeshes<dim>
   create_body_meshes(const std::vector<BodyParameters> &parameters,
                      const RunOptions &options)
@@ -70,17 +96,6 @@ namespace abut::app
     for (std::size_t body = 0; body < parameters.size(); ++body)
       result.extras[body] =
           create_mesh(parameters[body].mesh, options, result.meshes[body]);
-    const auto has_simplices = [&](const std::size_t body)
-    { return result.meshes[body].all_reference_cells_are_simplex(); };
-    result.are_simplices = has_simplices(0);
-    for (std::size_t body = 1; body < parameters.size(); ++body)
-      if (has_simplices(body) != result.are_simplices)
-        throw InputError(
-            parameters[body].mesh.source(),
-            "the cells are " + cell_name(result.meshes[body]) + ", those of "
-                + parameters[0].mesh.source() + " are "
-                + cell_name(result.meshes[0])
-                + ": all bodies of a scene have one kind of cells.");
     for (const MeshFileExtras<dim> &extras : result.extras)
       if (!extras.middles.empty())
         result.middles = std::make_shared<EdgeMiddles<dim>>();
@@ -122,7 +137,7 @@ namespace abut::app
       MeshDescription<dim> part = describe(mesh);
       if (coarse.middles)
         part.middles = coarse.extras[body].middles;
-      if (coarse.are_simplices)
+      if (coarse.are_simplices(body))
         for (unsigned int i = 0;
              i < parameters[body].refinements + further_levels; ++i)
           refine_red(mesh, part);
@@ -159,7 +174,7 @@ namespace abut::app
             std::make_pair(first + edge.first, first + edge.second), x);
     }
     all.create_triangulation(whole.vertices, whole.cells, whole.faces);
-    if (coarse.are_simplices)
+    if (!coarse.has_cubes())
       description = std::move(whole);
     for (const auto &[id, from] : manifolds)
       all.set_manifold(id, coarse.meshes[from.first].get_manifold(from.second));
@@ -167,28 +182,60 @@ namespace abut::app
 
   template <int dim>
   void
-  Bodies<dim>::refine_bodies(dealii::Triangulation<dim> &triangulation) const
+  Bodies<dim>::refine_cubes(const BodyMeshes<dim> &coarse,
+                            const unsigned int further_levels,
+                            dealii::Triangulation<dim> &triangulation) const
   {
-    unsigned int most = 0;
-    for (const BodyParameters &body : parameters)
-      most = std::max(most, body.refinements);
+    std::vector<unsigned int> n_levels;
+    for (unsigned int body = 0; body < size(); ++body)
+      n_levels.push_back(coarse.are_simplices(body)
+                             ? 0
+                             : parameters[body].refinements + further_levels);
+    const unsigned int most =
+        *std::max_element(n_levels.begin(), n_levels.end());
+    // Where all ranks have all cells, all ranks flag all of them.
+    const bool all_cells = coarse.has_simplices();
     for (unsigned int i = 0; i < most; ++i)
     {
       for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned()
-            && parameters[cell->material_id()].refinements > i)
+        if ((all_cells || cell->is_locally_owned())
+            && n_levels[cell->material_id()] > i)
           cell->set_refine_flag();
       triangulation.execute_coarsening_and_refinement();
     }
   }
 
   template <int dim>
+  void Bodies<dim>::check_size(const BodyMeshes<dim> &coarse,
+                               const RunOptions &options,
+                               const CellDegrees &degrees,
+                               const unsigned int further_levels) const
+  {
+    // What is most first: other cells take memory, too.
+    double n_cubes = 0., n_simplices = 0.;
+    for (unsigned int body = 0; body < size(); ++body)
+      (coarse.are_simplices(body) ? n_simplices : n_cubes) +=
+          coarse.meshes[body].n_active_cells()
+          * std::pow(
+              2., dim * double(parameters[body].refinements + further_levels));
+    const auto check =
+        [&](const double n, const unsigned int degree, const bool simplices)
+    {
+      if (n > 0.)
+        check_memory(dim, n, degree, options.communicator, "Refinement/Level",
+                     dim, simplices);
+    };
+    check(n_cubes, degrees.cubes, false);
+    check(n_simplices, degrees.simplices, true);
+  }
+
+  template <int dim>
   void Bodies<dim>::create(const BodyMeshes<dim> &coarse,
-                           const RunOptions &options, const unsigned int degree,
+                           const RunOptions &options,
+                           const CellDegrees &degrees,
                            const unsigned int further_levels,
                            dealii::Triangulation<dim> &triangulation)
   {
-    double n_cells = 0.;
     for (unsigned int body = 0; body < size(); ++body)
     {
       const MeshFileExtras<dim> &extras = coarse.extras[body];
@@ -205,20 +252,15 @@ namespace abut::app
       if constexpr (dim == 2)
         if (of_revolution)
           check_axis(parameters[body].mesh, coarse.meshes[body]);
-      n_cells +=
-          coarse.meshes[body].n_active_cells()
-          * std::pow(
-              2., dim * double(parameters[body].refinements + further_levels));
     }
-    check_memory(dim, n_cells, degree, options.communicator, "Refinement/Level",
-                 dim, coarse.are_simplices);
+    check_size(coarse, options, degrees, further_levels);
     Mesh all;
     merge(coarse, further_levels, all);
-    if (coarse.are_simplices)
+    if (coarse.has_simplices())
       check_cells(parameters.front().mesh.section + "/Curved sides", all);
     triangulation.copy_triangulation(all);
-    if (!coarse.are_simplices)
-      refine_bodies(triangulation);
+    refine_cubes(coarse, coarse.has_simplices() ? further_levels : 0,
+                 triangulation);
   }
 
   template <int dim>

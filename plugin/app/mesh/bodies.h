@@ -6,6 +6,7 @@
  * Several bodies on one distributed mesh.
  */
 
+#include "app/physics/cell_degrees.h"
 #include "body_parameters.h"
 #include "mesh_description.h"
 
@@ -19,7 +20,7 @@
 
 namespace abut::app
 {
-  /** The coarse meshes of bodies, all with the same kind of cells. */
+  /** The coarse meshes of bodies, each with cells of one kind. */
   template <int dim> struct BodyMeshes
   {
     explicit BodyMeshes(const std::size_t n_bodies = 0)
@@ -31,16 +32,43 @@ namespace abut::app
      * @p reason. */
     void straighten(const std::string &reason);
 
+    /** Whether a body is of triangles or tetrahedra. */
+    bool are_simplices(const std::size_t body) const
+    {
+      return meshes[body].all_reference_cells_are_simplex();
+    }
+
+    std::size_t n_of_simplices() const
+    {
+      std::size_t n = 0;
+      for (std::size_t body = 0; body < meshes.size(); ++body)
+        n += are_simplices(body) ? 1 : 0;
+      return n;
+    }
+
+    bool has_simplices() const
+    {
+      return n_of_simplices() > 0;
+    }
+
+    bool has_cubes() const
+    {
+      return n_of_simplices() < meshes.size();
+    }
+
+    /** Whether bodies of a surface such as `1: 3, 4; pin: *` are of triangles
+     * or tetrahedra, or their names are not known. */
+    bool may_have_simplices(const std::string &surface,
+                            const std::vector<BodyParameters> &bodies) const;
+
     std::vector<dealii::Triangulation<dim>> meshes;
     std::vector<MeshFileExtras<dim>> extras;
-    bool are_simplices = false; /**< triangles or tetrahedra */
     /** Where Bodies::create() puts those of all bodies; null: all edges are
      * straight. */
     std::shared_ptr<EdgeMiddles<dim>> middles;
   };
 
-  /** Throws InputError as create_mesh() does, and where bodies have different
-   * kinds of cells. Collective. */
+  /** Throws InputError as create_mesh() does. Collective. */
   template <int dim>
   BodyMeshes<dim>
   create_body_meshes(const std::vector<BodyParameters> &parameters,
@@ -64,11 +92,11 @@ namespace abut::app
                     bool of_revolution = false);
 
     /** Make the mesh of all bodies in the empty @p triangulation and refine
-     * each by its own `Refinements`. Triangles and tetrahedra are refined by
-     * @p further_levels more; of other cells these are counted when memory is
-     * checked. Throws InputError. Collective. */
+     * each by its own `Refinements`. Triangles and tetrahedra, and cells beside
+     * them, are refined by @p further_levels more; of other cells these are
+     * counted when memory is checked. Throws InputError. Collective. */
     void create(const BodyMeshes<dim> &coarse, const RunOptions &options,
-                unsigned int degree, unsigned int further_levels,
+                const CellDegrees &degrees, unsigned int further_levels,
                 dealii::Triangulation<dim> &triangulation);
 
     /** Bisect marked cells of the mesh that create() has made of triangles or
@@ -152,7 +180,12 @@ namespace abut::app
     std::string names_in_words() const;
     void merge(const BodyMeshes<dim> &coarse, unsigned int further_levels,
                Mesh &all);
-    void refine_bodies(dealii::Triangulation<dim> &triangulation) const;
+    void check_size(const BodyMeshes<dim> &coarse, const RunOptions &options,
+                    const CellDegrees &degrees,
+                    unsigned int further_levels) const;
+    void refine_cubes(const BodyMeshes<dim> &coarse,
+                      unsigned int further_levels,
+                      dealii::Triangulation<dim> &triangulation) const;
 
     const std::vector<BodyParameters> &parameters;
     const bool of_revolution;

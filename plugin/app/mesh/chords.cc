@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "chords.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
@@ -109,13 +110,13 @@ namespace abut::app
                       const std::set<boundary_id> &ids, const la::Vector &field,
                       const double least)
   {
-    const auto &fe = dof_handler.get_fe();
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    std::vector<double> squares(fe.base_element(0).n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
+    std::vector<double> squares;
     const auto reaches = [&](const auto &cell, const unsigned int f)
     {
-      cell->get_dof_indices(dofs);
-      std::fill(squares.begin(), squares.end(), 0.);
+      const auto &fe = cell->get_fe();
+      shim::get_dofs(cell, dofs);
+      squares.assign(fe.base_element(0).n_dofs_per_cell(), 0.);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (shim::has_node_on_face(fe, i, f))
         {

@@ -174,7 +174,9 @@ namespace abut::app
             complain(words_of(*first) + " is a " + shape_info(first->shape).name
                      + ", " + words_of(element) + " a " + info.name
                      + ": all cells of a body must be of one kind"
-                     + (dim == 2 ? " (in gmsh: Recombine, or not)." : "."));
+                     + (dim == 2 ? " (in gmsh: Recombine, or not)" : "")
+                     + ". Cells of both kinds may be two bodies, each with a "
+                       "part of the file (Mesh/Part).");
           if (degree_of(element) != degree_of(*first))
             complain(words_of(*first) + " is of degree "
                      + std::to_string(degree_of(*first)) + ", "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "nearest_node.h"
 
+#include "shim/by_element.h"
+
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,21 +24,27 @@ namespace abut::app
     Candidate best;
     best.fill(0.);
     best[0] = std::numeric_limits<double>::infinity();
-    const auto &fe = dof_handler.get_fe();
-    const auto &element = fe.base_element(0);
-    dealii::FEValues<dim> nodes(
-        mapping, element,
-        dealii::Quadrature<dim>(element.get_unit_support_points()),
-        dealii::update_quadrature_points);
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    const shim::ByElement nodes_of(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(
+              mapping, fe.base_element(0),
+              dealii::Quadrature<dim>(
+                  fe.base_element(0).get_unit_support_points()),
+              dealii::update_quadrature_points);
+        });
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned() || cell->material_id() != body)
         continue;
+      const dealii::FiniteElement<dim> &fe = cell->get_fe();
+      dealii::FEValues<dim> &nodes = nodes_of.of(cell);
       nodes.reinit(
           static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
               cell));
-      cell->get_dof_indices(dofs);
+      shim::get_dofs(cell, dofs);
       for (unsigned int i = 0; i < nodes.n_quadrature_points; ++i)
       {
         const dealii::Point<dim> &x = nodes.quadrature_point(i);

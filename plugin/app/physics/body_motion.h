@@ -234,7 +234,7 @@ namespace abut::app
      * plane, and does not turn in it. */
     bool has_rotations() const
     {
-      return problem_.fe.n_components() == dim;
+      return problem_.n_components() == dim;
     }
     void find_rigid_motions();
     /** Unit rotations about each axis, of places that a displacement (with

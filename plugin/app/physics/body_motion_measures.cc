@@ -4,6 +4,7 @@
 #include "body_motion.h"
 
 #include "nodal_places.h"
+#include "shim/by_element.h"
 #include "time_status.h"
 
 #include <abut/dealii/versions.h>
@@ -35,23 +36,31 @@ namespace abut::app
   std::vector<la::Vector>
   BodyMotion<dim>::turns_at(const la::Vector *displacement) const
   {
-    const auto &fe = problem_.fe;
     const auto &owned = problem_.dof_handler.locally_owned_dofs();
-    dealii::FEValues<dim> places(
-        problem_.mapping, fe.base_element(0),
-        dealii::Quadrature<dim>(fe.base_element(0).get_unit_support_points()),
-        dealii::update_quadrature_points);
-    const NodalPlaces<dim> unknowns(fe);
+    const shim::ByElement places_of(
+        problem_.dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(
+              problem_.mapping, fe.base_element(0),
+              dealii::Quadrature<dim>(
+                  fe.base_element(0).get_unit_support_points()),
+              dealii::update_quadrature_points);
+        });
+    const shim::ByElement unknowns_of(problem_.dof_handler, nodal_places<dim>);
     std::vector<la::Vector> result(dim == 2 ? 1 : 3, problem_.vector());
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : problem_.dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
+      const dealii::FiniteElement<dim> &fe = cell->get_fe();
+      dealii::FEValues<dim> &places = places_of.of(cell);
+      const NodalPlaces<dim> &unknowns = unknowns_of.of(cell);
       places.reinit(
           static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
               cell));
-      cell->get_dof_indices(dofs);
+      shim::get_dofs(cell, dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
         if (!owned.is_element(dofs[i]))
@@ -70,20 +79,19 @@ namespace abut::app
 
   template <int dim> void BodyMotion<dim>::find_rigid_motions()
   {
-    const unsigned int n_components = problem_.fe.n_components();
+    const unsigned int n_components = problem_.n_components();
     std::vector<la::Vector> motions(n_components, problem_.vector());
-    std::vector<dealii::types::global_dof_index> dofs(
-        problem_.fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     const auto &owned = problem_.dof_handler.locally_owned_dofs();
     for (const auto &cell : problem_.dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
-      cell->get_dof_indices(dofs);
+      shim::get_dofs(cell, dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (owned.is_element(dofs[i]))
-          la::data(motions[problem_.fe.system_to_component_index(i)
-                               .first])[owned.index_within_set(dofs[i])] = 1.;
+          la::data(motions[cell->get_fe().system_to_component_index(i).first])
+              [owned.index_within_set(dofs[i])] = 1.;
     }
     const auto times_mass = [this](const std::vector<la::Vector> &given)
     {

@@ -29,7 +29,7 @@ namespace abut::app
         matrix_(matrix),
         first_(la::row_range(matrix).first),
         load_(problem.vector()),
-        place_(problem.fe.n_dofs_per_cell(), 0)
+        place_(problem.elements.max_dofs_per_cell(), 0)
   {
     matrix_ = 0.;
     rows_ = la::local_rows(matrix_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cell_volume.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -35,15 +36,18 @@ namespace abut::app
                     [](const auto &entry)
                     { return entry.second->cell_volume() == nullptr; }))
       return;
-    const auto &fe = dof_handler.get_fe();
-    dealii::FEValues<dim> points(
-        mapping, fe, shim::gauss(fe, fe.degree + 1),
-        dealii::update_values | dealii::update_gradients
-            | dealii::update_quadrature_points | dealii::update_JxW_values);
+    const shim::ByElement points_of(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(
+              mapping, fe, shim::gauss(fe, fe.degree + 1),
+              dealii::update_values | dealii::update_gradients
+                  | dealii::update_quadrature_points
+                  | dealii::update_JxW_values);
+        });
     const dealii::FEValuesExtractors::Vector field(0);
     CellState<dim> state;
-    state.value.resize(points.n_quadrature_points);
-    state.gradient.resize(points.n_quadrature_points);
     of_cell_.resize(dof_handler.get_triangulation().n_active_cells());
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
@@ -51,7 +55,10 @@ namespace abut::app
       const CellVolume<dim> *volume = material.cell_volume();
       if (cell->is_artificial() || volume == nullptr)
         continue;
+      dealii::FEValues<dim> &points = points_of.of(cell);
       points.reinit(cell);
+      state.value.resize(points.n_quadrature_points);
+      state.gradient.resize(points.n_quadrature_points);
       points[field].get_function_values(displacement, state.value);
       points[field].get_function_gradients(displacement, state.gradient);
       of_cell_[cell->active_cell_index()] =

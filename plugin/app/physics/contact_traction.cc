@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include "contact_traction.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/distribute.h>
@@ -41,20 +42,25 @@ namespace abut::app
       la::Vector weights(const dealii::AffineConstraints<double> &hanging,
                          const Materials<dim> &materials) const
       {
-        const auto &fe = dof_handler.get_fe();
-        dealii::FEFaceValues<dim> points(
-            mapping, fe, shim::face_gauss(fe, fe.degree + 1),
-            dealii::update_values | dealii::update_quadrature_points
-                | dealii::update_JxW_values);
+        const shim::ByElement points_of(
+            dof_handler,
+            [&](const dealii::FiniteElement<dim> &fe)
+            {
+              return dealii::FEFaceValues<dim>(
+                  mapping, fe, shim::face_gauss(fe, fe.degree + 1),
+                  dealii::update_values | dealii::update_quadrature_points
+                      | dealii::update_JxW_values);
+            });
         la::Vector open = open_vector();
-        dealii::Vector<double> local(fe.n_dofs_per_cell());
+        dealii::Vector<double> local;
         for_each_face(
             [&](const auto &cell, const unsigned int f, const Dofs &dofs)
             {
+              dealii::FEFaceValues<dim> &points = points_of.of(cell);
               points.reinit(cell, f);
               const Material<dim> &material =
                   *materials.at(cell->material_id());
-              local = 0.;
+              local.reinit(dofs.size());
               for (unsigned int i = 0; i < dofs.size(); ++i)
                 for (unsigned int q = 0; q < points.n_quadrature_points; ++q)
                   local[i] += points.shape_value(i, q) * points.JxW(q)
@@ -72,10 +78,10 @@ namespace abut::app
         const la::Vector here = ghosted(values);
         la::Vector open_sum = open_vector();
         la::Vector open_count = open_vector();
-        const auto &fe = dof_handler.get_fe();
         for_each_face(
-            [&](const auto &, const unsigned int f, const Dofs &dofs)
+            [&](const auto &cell, const unsigned int f, const Dofs &dofs)
             {
+              const auto &fe = cell->get_fe();
               std::vector<double> sum(dim, 0.);
               std::vector<unsigned int> count(dim, 0);
               for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -123,7 +129,7 @@ namespace abut::app
       void for_each_face(const std::function<void(const Cell &, unsigned int,
                                                   const Dofs &)> &act) const
       {
-        Dofs dofs(dof_handler.get_fe().n_dofs_per_cell());
+        Dofs dofs;
         for (const auto &cell : dof_handler.active_cell_iterators())
         {
           if (!cell->is_locally_owned() || !cell->at_boundary())
@@ -132,7 +138,7 @@ namespace abut::app
             if (cell->face(f)->at_boundary()
                 && contact.count(cell->face(f)->boundary_id()) > 0)
             {
-              cell->get_dof_indices(dofs);
+              shim::get_dofs(cell, dofs);
               act(cell, f, dofs);
             }
         }

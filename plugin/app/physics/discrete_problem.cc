@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete_problem.h"
+#include "scalar_field.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/distribute.h>
+#include <abut/dealii/mapping_by_cell.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/dofs/dof_renumbering.h>
@@ -25,23 +28,35 @@ namespace abut::app
     make_mapping(const dealii::FiniteElement<dim> &fe,
                  const std::shared_ptr<const EdgeMiddles<dim>> &middles)
     {
+      if (!shim::is_simplex(fe))
+        return std::make_unique<dealii::MappingQ<dim>>(fe.degree);
       if (middles)
         return std::make_unique<MiddleNodes<dim>>(middles);
-      if (shim::is_simplex(fe))
-        return std::make_unique<dealii::MappingFE<dim>>(
-            dealii::FE_SimplexP<dim>(1));
-      return std::make_unique<dealii::MappingQ<dim>>(fe.degree);
+      return std::make_unique<dealii::MappingFE<dim>>(
+          dealii::FE_SimplexP<dim>(1));
+    }
+
+    template <int dim>
+    std::unique_ptr<const dealii::Mapping<dim>>
+    make_mapping(const dealii::hp::FECollection<dim> &elements,
+                 const std::shared_ptr<const EdgeMiddles<dim>> &middles)
+    {
+      if (elements.size() == 1)
+        return make_mapping(elements[0], middles);
+      dealii::hp::MappingCollection<dim> mappings;
+      for (unsigned int i = 0; i < elements.size(); ++i)
+        mappings.push_back(*make_mapping(elements[i], middles));
+      return std::make_unique<MappingByCell<dim>>(mappings);
     }
   } // namespace
 
   template <int dim>
   DiscreteProblem<dim>::DiscreteProblem(
       dealii::Triangulation<dim> &triangulation,
-      std::unique_ptr<dealii::FiniteElement<dim>> element,
+      const dealii::hp::FECollection<dim> &elements,
       std::shared_ptr<const EdgeMiddles<dim>> middles)
-      : element(std::move(element)),
-        fe(*this->element),
-        own_mapping(make_mapping(fe, middles)),
+      : elements(elements),
+        own_mapping(make_mapping(elements, middles)),
         mapping(*own_mapping),
         dof_handler(triangulation),
         communicator(versions::communicator(triangulation))
@@ -66,7 +81,9 @@ namespace abut::app
   template <int dim>
   void DiscreteProblem<dim>::distribute(const Prescribe &prescribe)
   {
-    dof_handler.distribute_dofs(fe);
+    if (elements.size() > 1)
+      choose_elements(elements, dof_handler);
+    dof_handler.distribute_dofs(elements);
     if (renumber)
       dealii::DoFRenumbering::Cuthill_McKee(dof_handler);
     relevant = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
@@ -156,11 +173,11 @@ namespace abut::app
                             { return is_supported(entry.first); });
     };
     std::vector<Cell> result;
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
-        cell->get_dof_indices(dofs);
+        shim::get_dofs(cell, dofs);
         if (std::any_of(dofs.begin(), dofs.end(), knows_support))
           result.push_back(cell);
       }
@@ -180,9 +197,8 @@ namespace abut::app
   la::Vector DiscreteProblem<dim>::support_forces(
       const la::Vector &u, const CellStiffness &cell_stiffness) const
   {
-    const unsigned int n = fe.n_dofs_per_cell();
-    dealii::Vector<double> values(n), force(n);
-    std::vector<dealii::types::global_dof_index> dofs(n);
+    dealii::Vector<double> values, force;
+    std::vector<dealii::types::global_dof_index> dofs;
     // One after the other: this is where a run needs most memory.
     const auto forces_of = [&](const la::Vector &part)
     {
@@ -190,8 +206,10 @@ namespace abut::app
       la::Vector by = open_load();
       for (const Cell &cell : support_cells())
       {
-        cell->get_dof_indices(dofs);
-        for (unsigned int i = 0; i < n; ++i)
+        shim::get_dofs(cell, dofs);
+        values.reinit(dofs.size(), true);
+        force.reinit(dofs.size(), true);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
           values(i) = of(dofs[i]);
         cell_stiffness(cell).vmult(force, values);
         versions::distribute_local_to_global(hanging, force, dofs, by);

@@ -9,8 +9,8 @@
 
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe.h>
 #include <deal.II/fe/mapping.h>
+#include <deal.II/hp/fe_collection.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -42,10 +42,11 @@ namespace abut::app
     /** Adds prescribed values to constraints that hold hanging nodes. */
     using Prescribe = std::function<void(dealii::AffineConstraints<double> &)>;
 
-    /** @param middles of triangles and tetrahedra with curved edges; null: all
+    /** @param elements one, or one for each kind of cells
+     * @param middles of triangles and tetrahedra with curved edges; null: all
      * are straight */
     DiscreteProblem(dealii::Triangulation<dim> &triangulation,
-                    std::unique_ptr<dealii::FiniteElement<dim>> element,
+                    const dealii::hp::FECollection<dim> &elements,
                     std::shared_ptr<const EdgeMiddles<dim>> middles = nullptr);
 
     virtual ~DiscreteProblem() = default;
@@ -97,14 +98,18 @@ namespace abut::app
 
     la::Vector vector() const;
 
+    /** Of all elements. */
+    unsigned int n_components() const
+    {
+      return elements.n_components();
+    }
+
   private:
     la::Vector ghosted(const la::Vector &owned,
                        const dealii::AffineConstraints<double> &rules) const;
 
-    std::unique_ptr<dealii::FiniteElement<dim>> element;
-
   public:
-    const dealii::FiniteElement<dim> &fe;
+    const dealii::hp::FECollection<dim> elements;
 
   private:
     const std::unique_ptr<const dealii::Mapping<dim>> own_mapping;

@@ -47,53 +47,65 @@ namespace abut::app
     void for_each_state(const DiscreteProblem<dim> &problem,
                         const la::Vector &displacement, const Action &action)
     {
-      const dealii::Quadrature<dim> quadrature =
-          shim::gauss(problem.fe, problem.fe.degree + 1);
       const auto flags = dealii::update_values | dealii::update_gradients
                          | dealii::update_JxW_values
                          | dealii::update_quadrature_points;
-      dealii::FEValues<dim> points(problem.mapping, problem.fe.base_element(0),
-                                   quadrature, flags);
-      dealii::FEValues<dim> field(problem.mapping, problem.fe, quadrature,
-                                  dealii::update_values
-                                      | dealii::update_gradients);
+      const shim::ByElement all_points(
+          problem.dof_handler,
+          [&](const dealii::FiniteElement<dim> &fe)
+          {
+            return dealii::FEValues<dim>(problem.mapping, fe.base_element(0),
+                                         shim::gauss(fe, fe.degree + 1), flags);
+          });
+      const shim::ByElement fields(
+          problem.dof_handler,
+          [&](const dealii::FiniteElement<dim> &fe)
+          {
+            return dealii::FEValues<dim>(
+                problem.mapping, fe, shim::gauss(fe, fe.degree + 1),
+                dealii::update_values | dealii::update_gradients);
+          });
       const dealii::FEValuesExtractors::Vector all(0);
       CellState<dim> state;
-      state.value.resize(quadrature.size());
-      state.gradient.resize(quadrature.size());
-      std::vector<global_dof_index> dofs(problem.fe.n_dofs_per_cell());
+      std::vector<global_dof_index> dofs;
       for (const auto &cell : problem.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
         {
+          dealii::FEValues<dim> &points = all_points.of(cell),
+                                &field = fields.of(cell);
+          state.value.resize(points.n_quadrature_points);
+          state.gradient.resize(points.n_quadrature_points);
           points.reinit(
               static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
                   cell));
           field.reinit(cell);
           field[all].get_function_values(displacement, state.value);
           field[all].get_function_gradients(displacement, state.gradient);
-          cell->get_dof_indices(dofs);
+          shim::get_dofs(cell, dofs);
           action(cell, points, state, dofs);
         }
     }
 
     template <int dim>
-    std::unique_ptr<dealii::FiniteElement<dim>>
-    make_element(const unsigned int degree, const bool simplices)
+    dealii::hp::FECollection<dim> make_elements(const CellDegrees &degrees)
     {
       using System = dealii::FESystem<dim>;
-      return simplices
-                 ? std::make_unique<System>(dealii::FE_SimplexP<dim>(degree),
-                                            dim)
-                 : std::make_unique<System>(dealii::FE_Q<dim>(degree), dim);
+      dealii::hp::FECollection<dim> result;
+      if (degrees.cubes > 0)
+        result.push_back(System(dealii::FE_Q<dim>(degrees.cubes), dim));
+      if (degrees.simplices > 0)
+        result.push_back(
+            System(dealii::FE_SimplexP<dim>(degrees.simplices), dim));
+      return result;
     }
   } // namespace
 
   template <int dim>
   Elasticity<dim>::Elasticity(dealii::Triangulation<dim> &triangulation,
-                              const unsigned int degree, const bool simplices,
+                              const CellDegrees &degrees,
                               std::shared_ptr<const EdgeMiddles<dim>> middles)
-      : DiscreteProblem<dim>(triangulation,
-                             make_element<dim>(degree, simplices), middles),
+      : DiscreteProblem<dim>(triangulation, make_elements<dim>(degrees),
+                             middles),
         materials(std::make_unique<Materials<dim>>())
   {
   }
@@ -152,10 +164,11 @@ namespace abut::app
   template <int dim> void Elasticity<dim>::setup(const ElasticData<dim> &data)
   {
     *materials = data.materials;
-    cache = std::make_unique<StiffnessCache<dim>>(this->mapping, this->fe,
-                                                  *materials);
     this->distribute([&](dealii::AffineConstraints<double> &constraints)
                      { prescribe(data, constraints); });
+    cache = std::make_unique<StiffnessCaches<dim>>(
+        this->dof_handler, [&](const dealii::FiniteElement<dim> &fe)
+        { return StiffnessCache<dim>(this->mapping, fe, *materials); });
   }
 
   template <int dim>
@@ -172,6 +185,13 @@ namespace abut::app
                        { return entry.second->is_linear(); });
   }
 
+  template <int dim>
+  const dealii::FullMatrix<double> &Elasticity<dim>::cell_stiffness(
+      const typename DiscreteProblem<dim>::Cell &cell) const
+  {
+    return cache->of(cell).matrix(cell);
+  }
+
   template <int dim> void Elasticity<dim>::assemble_stiffness()
   {
     if (!is_linear())
@@ -181,12 +201,12 @@ namespace abut::app
       return;
     }
     CellSum<dim> sum(*this, this->stiffness);
-    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    std::vector<global_dof_index> dofs;
     for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
-        cell->get_dof_indices(dofs);
-        sum.add(cache->matrix(cell), dofs);
+        shim::get_dofs(cell, dofs);
+        sum.add(cell_stiffness(cell), dofs);
       }
     sum.close();
   }
@@ -194,13 +214,15 @@ namespace abut::app
   template <int dim> void Elasticity<dim>::assemble_tangent(const la::Vector &u)
   {
     CellSum<dim> sum(*this, this->stiffness);
-    dealii::FullMatrix<double> tangent(this->fe.n_dofs_per_cell());
+    dealii::FullMatrix<double> tangent;
     for_each_state(*this, this->ghosted_field(u),
                    [&](const auto &cell, const auto &points, const auto &state,
                        const auto &dofs)
                    {
+                     if (tangent.m() != dofs.size())
+                       tangent.reinit(dofs.size(), dofs.size());
                      materials->at(cell->material_id())
-                         ->cell_tangent(points, this->fe, state, tangent);
+                         ->cell_tangent(points, cell->get_fe(), state, tangent);
                      sum.add(tangent, dofs);
                    });
     sum.close();
@@ -232,14 +254,18 @@ namespace abut::app
                                           la::Vector &load,
                                           la::Vector &all) const
   {
-    const dealii::FiniteElement<dim> &element = this->fe.base_element(0);
-    dealii::FEValues<dim> values(
-        this->mapping, element, shim::gauss(this->fe, this->fe.degree + 1),
-        dealii::update_values | dealii::update_quadrature_points
-            | dealii::update_JxW_values);
-    const NodalPlaces<dim> places(this->fe);
-    dealii::Vector<double> force(this->fe.n_dofs_per_cell());
-    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    const shim::ByElement values_of(
+        this->dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(
+              this->mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
+              dealii::update_values | dealii::update_quadrature_points
+                  | dealii::update_JxW_values);
+        });
+    const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
+    dealii::Vector<double> force;
+    std::vector<global_dof_index> dofs;
     for (const auto &cell : this->dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
@@ -248,12 +274,15 @@ namespace abut::app
       const auto given = data.body_force.find(body);
       if (given == data.body_force.end())
         continue;
+      dealii::FEValues<dim> &values = values_of.of(cell);
+      const NodalPlaces<dim> &places = places_of.of(cell);
       values.reinit(
           static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
               cell));
       const auto &points = values.get_quadrature_points();
       const Material<dim> &material = *data.materials.at(body);
-      force = 0.;
+      shim::get_dofs(cell, dofs);
+      force.reinit(dofs.size());
       for (unsigned int c = 0; c < dim; ++c)
       {
         const std::vector<double> f = given->second->evaluate(points, c);
@@ -264,7 +293,6 @@ namespace abut::app
             force(places(c, i)) += f[q] * dx * values.shape_value(i, q);
         }
       }
-      cell->get_dof_indices(dofs);
       versions::distribute_local_to_global(this->constraints, force, dofs,
                                            load);
       versions::distribute_local_to_global(this->hanging, force, dofs, all);
@@ -276,14 +304,20 @@ namespace abut::app
                                             la::Vector &load,
                                             la::Vector &all) const
   {
-    const dealii::FiniteElement<dim> &element = this->fe.base_element(0);
-    dealii::FEFaceValues<dim> values(
-        this->mapping, element, shim::face_gauss(this->fe, this->fe.degree + 1),
-        dealii::update_values | dealii::update_JxW_values
-            | dealii::update_normal_vectors | dealii::update_quadrature_points);
-    const NodalPlaces<dim> places(this->fe);
-    dealii::Vector<double> force(this->fe.n_dofs_per_cell());
-    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
+    const shim::ByElement values_of(
+        this->dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEFaceValues<dim>(
+              this->mapping, fe.base_element(0),
+              shim::face_gauss(fe, fe.degree + 1),
+              dealii::update_values | dealii::update_JxW_values
+                  | dealii::update_normal_vectors
+                  | dealii::update_quadrature_points);
+        });
+    const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
+    dealii::Vector<double> force;
+    std::vector<global_dof_index> dofs;
     for (const auto &cell : this->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int f : cell->face_indices())
@@ -296,6 +330,8 @@ namespace abut::app
           if (traction == data.tractions.end()
               && pressure == data.pressures.end())
             continue;
+          dealii::FEFaceValues<dim> &values = values_of.of(cell);
+          const NodalPlaces<dim> &places = places_of.of(cell);
           values.reinit(
               static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
                   cell),
@@ -309,7 +345,8 @@ namespace abut::app
             p = pressure->second.function->evaluate(points);
           const Material<dim> &material =
               *data.materials.at(cell->material_id());
-          force = 0.;
+          shim::get_dofs(cell, dofs);
+          force.reinit(dofs.size());
           for (unsigned int q = 0; q < points.size(); ++q)
             for (unsigned int c = 0; c < dim; ++c)
             {
@@ -320,7 +357,6 @@ namespace abut::app
               for (unsigned int i = 0; i < places.n_nodes(); ++i)
                 force(places(c, i)) += stress * dx * values.shape_value(i, q);
             }
-          cell->get_dof_indices(dofs);
           versions::distribute_local_to_global(this->constraints, force, dofs,
                                                load);
           versions::distribute_local_to_global(this->hanging, force, dofs, all);
@@ -330,16 +366,18 @@ namespace abut::app
   template <int dim>
   void Elasticity<dim>::add_support_forces(la::Vector &load) const
   {
-    std::vector<global_dof_index> dofs(this->fe.n_dofs_per_cell());
-    dealii::Vector<double> moved(dofs.size()), force(dofs.size());
+    std::vector<global_dof_index> dofs;
+    dealii::Vector<double> moved, force;
     for (const auto &cell : this->support_cells())
     {
-      cell->get_dof_indices(dofs);
+      shim::get_dofs(cell, dofs);
+      moved.reinit(dofs.size(), true);
+      force.reinit(dofs.size(), true);
       for (std::size_t i = 0; i < dofs.size(); ++i)
         moved(i) = this->constraints.get_inhomogeneity(dofs[i]);
       if (moved.all_zero())
         continue;
-      cache->matrix(cell).vmult(force, moved);
+      cell_stiffness(cell).vmult(force, moved);
       force *= -1.;
       versions::distribute_local_to_global(this->constraints, force, dofs,
                                            load);
@@ -374,13 +412,14 @@ namespace abut::app
   {
     const la::Vector ghosted = this->ghosted_field(u);
     la::Vector open = this->open_load();
-    dealii::Vector<double> force(this->fe.n_dofs_per_cell());
+    dealii::Vector<double> force;
     for_each_state(*this, ghosted,
                    [&](const auto &cell, const auto &points, const auto &state,
                        const auto &dofs)
                    {
+                     force.reinit(dofs.size(), true);
                      materials->at(cell->material_id())
-                         ->cell_forces(points, this->fe, state, force);
+                         ->cell_forces(points, cell->get_fe(), state, force);
                      versions::distribute_local_to_global(rules, force, dofs,
                                                           open);
                    });
@@ -394,7 +433,7 @@ namespace abut::app
     result += this->support_forces(
         u,
         [this](const auto &cell) -> const dealii::FullMatrix<double> &
-        { return cache->matrix(cell); });
+        { return cell_stiffness(cell); });
     return result;
   }
 

@@ -3,8 +3,10 @@
 #define ABUT_APP_ELASTICITY_H
 
 #include "app/input/boundary_expressions.h"
+#include "cell_degrees.h"
 #include "discrete_problem.h"
 #include "material.h"
+#include "shim/by_element.h"
 #include "volume_force.h"
 
 #include <functional>
@@ -16,6 +18,8 @@
 namespace abut::app
 {
   template <int dim> class StiffnessCache;
+  template <int dim>
+  using StiffnessCaches = shim::ByElement<StiffnessCache<dim>>;
 
   /** Data of elastic bodies; functions must outlive it, and have the time of
    * the present load step. */
@@ -39,10 +43,10 @@ namespace abut::app
   template <int dim> class Elasticity : public DiscreteProblem<dim>
   {
   public:
-    /** @param simplices whether cells are triangles or tetrahedra
-     * @param middles of their curved edges; null: all are straight */
-    Elasticity(dealii::Triangulation<dim> &triangulation, unsigned int degree,
-               bool simplices = false,
+    /** @param middles of curved edges of triangles and tetrahedra; null: all
+     * are straight */
+    Elasticity(dealii::Triangulation<dim> &triangulation,
+               const CellDegrees &degrees,
                std::shared_ptr<const EdgeMiddles<dim>> middles = nullptr);
     ~Elasticity() override;
 
@@ -115,10 +119,13 @@ namespace abut::app
     /** Those of the first kind, with the present prescribed values. */
     la::Vector all_internal_forces(const la::Vector &u) const;
     void assemble_tangent(const la::Vector &u);
+    /** Of a cell of a linear material, valid until the next call. */
+    const dealii::FullMatrix<double> &
+    cell_stiffness(const typename DiscreteProblem<dim>::Cell &cell) const;
 
     la::Matrix undeformed; ///< of nonlinear materials
     std::unique_ptr<Materials<dim>> materials;
-    std::unique_ptr<StiffnessCache<dim>> cache;
+    std::unique_ptr<StiffnessCaches<dim>> cache;
   };
 } // namespace abut::app
 

@@ -4,6 +4,7 @@
 
 #include "app/input/input_error.h"
 #include "cell_volume.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
@@ -75,20 +76,26 @@ namespace abut::app
                                const la::Vector &solution,
                                const dealii::Function<dim> &exact)
     {
-      const auto &fe = dof_handler.get_fe();
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
       std::vector<bool> seen(owned.n_elements(), false);
-      std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      dealii::FEValues<dim> nodes(
-          mapping, fe, dealii::Quadrature<dim>(fe.get_unit_support_points()),
-          dealii::update_quadrature_points);
+      std::vector<dealii::types::global_dof_index> dofs;
+      const shim::ByElement nodes_of(
+          dof_handler,
+          [&](const dealii::FiniteElement<dim> &fe)
+          {
+            return dealii::FEValues<dim>(
+                mapping, fe,
+                dealii::Quadrature<dim>(fe.get_unit_support_points()),
+                dealii::update_quadrature_points);
+          });
       double largest = 0;
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned())
           continue;
+        dealii::FEValues<dim> &nodes = nodes_of.of(cell);
         nodes.reinit(cell);
-        cell->get_dof_indices(dofs);
+        shim::get_dofs(cell, dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
           if (!owned.is_element(dofs[i]))
@@ -100,8 +107,9 @@ namespace abut::app
           largest = std::max(
               largest,
               std::abs(solution(dofs[i])
-                       - exact.value(nodes.quadrature_point(i),
-                                     fe.system_to_component_index(i).first)));
+                       - exact.value(
+                           nodes.quadrature_point(i),
+                           cell->get_fe().system_to_component_index(i).first)));
         }
       }
       return largest;
@@ -111,10 +119,8 @@ namespace abut::app
     template <int dim> class PointErrors
     {
     public:
-      PointErrors(const unsigned int n_components, const unsigned int n_points)
-          : value(n_components, std::vector<double>(n_points)),
-            gradient(n_components,
-                     std::vector<dealii::Tensor<1, dim>>(n_points))
+      explicit PointErrors(const unsigned int n_components)
+          : value(n_components), gradient(n_components)
       {
       }
 
@@ -125,6 +131,8 @@ namespace abut::app
         for (unsigned int c = 0; c < value.size(); ++c)
         {
           const auto &u = points[dealii::FEValuesExtractors::Scalar(c)];
+          value[c].resize(points.n_quadrature_points);
+          gradient[c].resize(points.n_quadrature_points);
           u.get_function_values(solution, value[c]);
           u.get_function_gradients(solution, gradient[c]);
           for (const unsigned int q : points.quadrature_point_indices())
@@ -197,13 +205,17 @@ namespace abut::app
                          const dealii::Function<dim> &exact,
                          const Materials<dim> *materials)
   {
-    const auto &fe = dof_handler.get_fe();
-    const dealii::Quadrature<dim> quadrature = shim::gauss(fe, fe.degree + 2);
-    dealii::FEValues<dim> points(
-        mapping, fe, quadrature,
-        dealii::update_values | dealii::update_gradients
-            | dealii::update_quadrature_points | dealii::update_JxW_values);
-    PointErrors<dim> errors(fe.n_components(), quadrature.size());
+    const shim::ByElement points_of(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(
+              mapping, fe, shim::gauss(fe, fe.degree + 2),
+              dealii::update_values | dealii::update_gradients
+                  | dealii::update_quadrature_points
+                  | dealii::update_JxW_values);
+        });
+    PointErrors<dim> errors(dof_handler.get_fe().n_components());
     double l2 = 0;
     double h1 = 0;
     double energy = 0;
@@ -211,6 +223,7 @@ namespace abut::app
     {
       if (!cell->is_locally_owned())
         continue;
+      dealii::FEValues<dim> &points = points_of.of(cell);
       points.reinit(cell);
       errors.reinit(points, solution, exact);
       for (const unsigned int q : points.quadrature_point_indices())

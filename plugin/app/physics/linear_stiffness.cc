@@ -2,14 +2,16 @@
 #include "linear_stiffness.h"
 
 #include "nodal_means.h"
+#include "scalar_field.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <array>
 
 namespace abut::app
@@ -26,8 +28,8 @@ namespace abut::app
           : dof_handler(dof_handler),
             displacement(displacement),
             materials(materials),
-            points(mapping, dof_handler.get_fe(),
-                   shim::gauss(dof_handler.get_fe(), 2),
+            points(mapping, simplex_element(dof_handler),
+                   shim::gauss(simplex_element(dof_handler), 2),
                    dealii::update_values | dealii::update_gradients
                        | dealii::update_quadrature_points
                        | dealii::update_JxW_values),
@@ -35,7 +37,7 @@ namespace abut::app
             u(points.n_quadrature_points),
             gradient(points.n_quadrature_points)
       {
-        scalar.distribute_dofs(dealii::FE_SimplexP<dim>(1));
+        distribute_linear(dof_handler, scalar);
       }
 
       /** Energies of this rank: of the difference, and of the solution.
@@ -53,7 +55,7 @@ namespace abut::app
         std::vector<la::Vector> recovered;
         for (const la::Vector &mean : means.means())
           recovered.push_back(means.ghosted(mean));
-        const auto &fe = scalar.get_fe();
+        const auto &fe = simplex_element(scalar);
         std::array<double, 2> result = {{0., 0.}};
         for_each_cell(
             [&](const auto &cell)
@@ -79,6 +81,15 @@ namespace abut::app
       }
 
     private:
+      static const dealii::FiniteElement<dim> &
+      simplex_element(const dealii::DoFHandler<dim> &field)
+      {
+        const auto all = shim::elements(field);
+        return **std::find_if(all.begin(), all.end(),
+                              [](const auto *fe)
+                              { return shim::is_simplex(*fe); });
+      }
+
       static std::vector<double>
       components(const dealii::Tensor<2, dim> &gradient)
       {
@@ -95,7 +106,7 @@ namespace abut::app
         const dealii::FEValuesExtractors::Vector field(0);
         for (const auto &cell : dof_handler.active_cell_iterators())
         {
-          if (!cell->is_locally_owned())
+          if (!cell->is_locally_owned() || !shim::is_simplex(cell->get_fe()))
             continue;
           points.reinit(cell);
           points[field].get_function_values(displacement, u);

@@ -16,8 +16,8 @@ namespace abut::app
    * loads the part of the strain energy, and so of displacements, that their
    * stiffness takes away. Recovered displacement gradients are means at
    * vertices of those of cells, weighted by volume (Zienkiewicz and Zhu, Int.
-   * J. Numer. Methods Eng. 24, 1987). For materials of small strain. @p
-   * displacement with ghosts. Collective. */
+   * J. Numer. Methods Eng. 24, 1987). For materials of small strain; beside
+   * them there may be other cells. @p displacement with ghosts. Collective. */
   template <int dim>
   double linear_stiffness_error(const dealii::Mapping<dim> &mapping,
                                 const dealii::DoFHandler<dim> &dof_handler,

@@ -3,6 +3,7 @@
 
 #include "app/input/input_error.h"
 #include "nodal_places.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 #include "whole_matrix.h"
 
@@ -107,22 +108,30 @@ namespace abut::app
   la::Matrix mass_matrix(const DiscreteProblem<dim> &problem,
                          const MassData<dim> &data)
   {
-    const dealii::FiniteElement<dim> &fe = problem.fe;
-    dealii::FEValues<dim> values(
-        problem.mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
-        dealii::update_values | dealii::update_JxW_values
-            | dealii::update_quadrature_points);
+    const shim::ByElement values_of(
+        problem.dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(problem.mapping, fe.base_element(0),
+                                       shim::gauss(fe, fe.degree + 1),
+                                       dealii::update_values
+                                           | dealii::update_JxW_values
+                                           | dealii::update_quadrature_points);
+        });
     dealii::IndexSet touching(problem.dof_handler.n_dofs());
     if (!data.candidates.empty())
       touching = dealii::DoFTools::extract_boundary_dofs(
           problem.dof_handler, dealii::ComponentMask(), data.candidates);
-    const NodalPlaces<dim> places(fe);
-    const unsigned int n = places.n_nodes();
-    std::vector<std::uint8_t> candidate(n);
+    const shim::ByElement places_of(problem.dof_handler, nodal_places<dim>);
+    std::vector<std::uint8_t> candidate;
     const auto compute = [&](const auto &cell,
                              const std::vector<global_dof_index> &dofs,
                              dealii::FullMatrix<double> &of_cell)
     {
+      dealii::FEValues<dim> &values = values_of.of(cell);
+      const NodalPlaces<dim> &places = places_of.of(cell);
+      const unsigned int n = places.n_nodes();
+      candidate.resize(n);
       values.reinit(
           static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
               cell));
@@ -135,7 +144,7 @@ namespace abut::app
       of_cell = 0.;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int c = 0; c < fe.n_components(); ++c)
+          for (unsigned int c = 0; c < problem.n_components(); ++c)
             of_cell(places(c, i), places(c, j)) = scalar(i, j);
     };
     return whole_matrix<dim>(problem, compute,

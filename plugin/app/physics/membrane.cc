@@ -26,11 +26,14 @@ namespace abut::app
     public:
       CellSystem(const DiscreteProblem<dim> &problem,
                  const MembraneData<dim> &data)
-          : matrix(problem.fe.n_dofs_per_cell(), problem.fe.n_dofs_per_cell()),
-            load(problem.fe.n_dofs_per_cell()),
+          : matrix(problem.elements[0].n_dofs_per_cell(),
+                   problem.elements[0].n_dofs_per_cell()),
+            load(problem.elements[0].n_dofs_per_cell()),
             data(data),
-            quadrature(shim::gauss(problem.fe, problem.fe.degree + 1)),
-            values(problem.mapping, problem.fe, quadrature, flags(data)),
+            quadrature(shim::gauss(problem.elements[0],
+                                   problem.elements[0].degree + 1)),
+            values(problem.mapping, problem.elements[0], quadrature,
+                   flags(data)),
             shapes(problem.mapping),
             k(quadrature.size(),
               data.conductivity->value(dealii::Point<dim>())),
@@ -129,10 +132,11 @@ namespace abut::app
     public:
       CellFlux(const DiscreteProblem<dim> &problem,
                const MembraneData<dim> &data)
-          : load(problem.fe.n_dofs_per_cell()),
+          : load(problem.elements[0].n_dofs_per_cell()),
             data(data),
-            quadrature(shim::face_gauss(problem.fe, problem.fe.degree + 1)),
-            values(problem.mapping, problem.fe, quadrature,
+            quadrature(shim::face_gauss(problem.elements[0],
+                                        problem.elements[0].degree + 1)),
+            values(problem.mapping, problem.elements[0], quadrature,
                    dealii::update_values | dealii::update_JxW_values
                        | dealii::update_quadrature_points),
             flux(quadrature.size())
@@ -176,8 +180,8 @@ namespace abut::app
   template <int dim>
   Membrane<dim>::Membrane(dealii::Triangulation<dim> &triangulation,
                           const unsigned int degree)
-      : LinearProblem<dim>(triangulation,
-                           std::make_unique<dealii::FE_Q<dim>>(degree))
+      : LinearProblem<dim>(triangulation, dealii::hp::FECollection<dim>(
+                                              dealii::FE_Q<dim>(degree)))
   {
   }
 
@@ -213,7 +217,7 @@ namespace abut::app
     CellSum<dim> sum(*this, this->stiffness);
     la::Vector open = this->open_load();
     std::vector<dealii::types::global_dof_index> dofs(
-        this->fe.n_dofs_per_cell());
+        this->elements[0].n_dofs_per_cell());
     const auto add = [&]
     {
       CellSystem<dim> system(*this, data);
@@ -244,7 +248,7 @@ namespace abut::app
     CellSystem<dim> system(*this, assembled);
     CellFlux<dim> flux(*this, assembled);
     std::vector<dealii::types::global_dof_index> dofs(
-        this->fe.n_dofs_per_cell());
+        this->elements[0].n_dofs_per_cell());
     for (const auto &cell : this->support_cells())
     {
       cell->get_dof_indices(dofs);
@@ -263,7 +267,7 @@ namespace abut::app
   {
     CellSum<dim> sum(*this, this->stiffness);
     std::vector<dealii::types::global_dof_index> dofs(
-        this->fe.n_dofs_per_cell());
+        this->elements[0].n_dofs_per_cell());
     const auto add = [&]
     {
       CellSystem<dim> system(*this, data);
@@ -286,7 +290,7 @@ namespace abut::app
   {
     la::Vector open = this->open_load();
     std::vector<dealii::types::global_dof_index> dofs(
-        this->fe.n_dofs_per_cell());
+        this->elements[0].n_dofs_per_cell());
     const auto add = [&]
     {
       CellSystem<dim> system(*this, data);

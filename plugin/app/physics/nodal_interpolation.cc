@@ -38,7 +38,7 @@ namespace abut::app
     void put_values(const DiscreteProblem<dim> &problem, const Cell &cell,
                     const Expression<dim> &formula, la::Vector &values)
     {
-      const dealii::FiniteElement<dim> &fe = problem.fe;
+      const dealii::FiniteElement<dim> &fe = cell->get_fe();
       const auto &owned = problem.dof_handler.locally_owned_dofs();
       std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
       cell->get_dof_indices(dofs);

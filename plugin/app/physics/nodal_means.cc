@@ -13,8 +13,7 @@ namespace abut::app
                               const unsigned int n_components)
       : scalar(scalar),
         relevant(dealii::DoFTools::extract_locally_relevant_dofs(scalar)),
-        sums(n_components + 1),
-        dofs(scalar.get_fe().n_dofs_per_cell())
+        sums(n_components + 1)
   {
     for (la::Vector &sum : sums)
       sum.reinit(scalar.locally_owned_dofs(), relevant,

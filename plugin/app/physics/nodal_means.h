@@ -2,6 +2,8 @@
 #ifndef ABUT_APP_NODAL_MEANS_H
 #define ABUT_APP_NODAL_MEANS_H
 
+#include "shim/by_element.h"
+
 #include <abut/dealii/linear_algebra.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -24,9 +26,10 @@ namespace abut::app
     /** The nodes of the cell that @p cell is in the mesh. */
     template <class Cell> const Dofs &nodes(const Cell &cell)
     {
-      typename dealii::DoFHandler<dim>::active_cell_iterator(
-          &scalar.get_triangulation(), cell->level(), cell->index(), &scalar)
-          ->get_dof_indices(dofs);
+      shim::get_dofs(typename dealii::DoFHandler<dim>::active_cell_iterator(
+                         &scalar.get_triangulation(), cell->level(),
+                         cell->index(), &scalar),
+                     dofs);
       return dofs;
     }
 

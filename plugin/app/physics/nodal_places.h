@@ -38,6 +38,13 @@ namespace abut::app
     unsigned int n_components_;
     std::vector<unsigned int> places_;
   };
+
+  /** Those of an element, for shim::ByElement. */
+  template <int dim>
+  NodalPlaces<dim> nodal_places(const dealii::FiniteElement<dim> &fe)
+  {
+    return NodalPlaces<dim>(fe);
+  }
 } // namespace abut::app
 
 #endif

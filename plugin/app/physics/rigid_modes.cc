@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "rigid_modes.h"
 
+#include "shim/by_element.h"
+
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
@@ -128,11 +130,16 @@ namespace abut::app
   {
     const bool rings = dim == 2 && plane == PlaneModel::axisymmetric;
     const auto boxes = bounding_boxes(dof_handler, n_bodies, body_of);
-    const auto &element = dof_handler.get_fe().base_element(0);
-    dealii::FEFaceValues<dim> nodes(
-        mapping, element,
-        dealii::Quadrature<dim - 1>(element.get_unit_face_support_points()),
-        dealii::update_quadrature_points);
+    const shim::ByElement nodes_of(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEFaceValues<dim>(
+              mapping, fe.base_element(0),
+              dealii::Quadrature<dim - 1>(
+                  fe.base_element(0).get_unit_face_support_points()),
+              dealii::update_quadrature_points);
+        });
     const std::size_t n =
         motions<dim>(dealii::Tensor<1, dim>(), 0, rings).size();
     std::vector<double> grams(n * n * n_bodies, 0.);
@@ -143,6 +150,7 @@ namespace abut::app
           const auto held = supports.find(cell->face(f)->boundary_id());
           if (!cell->face(f)->at_boundary() || held == supports.end())
             continue;
+          dealii::FEFaceValues<dim> &nodes = nodes_of.of(cell);
           nodes.reinit(
               static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
                   cell),

@@ -2,6 +2,8 @@
 #include "stiffness_cache.h"
 #include "shim/cell_quadrature.h"
 
+#include <abut/dealii/mapping_by_cell.h>
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <cmath>
@@ -15,6 +17,15 @@ namespace abut::app
 
     /** Number of cells after which a cache that does not help is left. */
     constexpr std::size_t trial = 256;
+
+    /** The mapping of the cells of an element. */
+    template <int dim>
+    const dealii::Mapping<dim> &mapping_of(const dealii::Mapping<dim> &mapping,
+                                           const dealii::FiniteElement<dim> &fe)
+    {
+      const auto *by_cell = dynamic_cast<const MappingByCell<dim> *>(&mapping);
+      return by_cell != nullptr ? by_cell->of(fe.reference_cell()) : mapping;
+    }
   } // namespace
 
   template <int dim>
@@ -23,7 +34,7 @@ namespace abut::app
                                       const Materials<dim> &materials)
       : materials(materials),
         fe(fe),
-        bent(dynamic_cast<const MiddleNodes<dim> *>(&mapping)),
+        bent(dynamic_cast<const MiddleNodes<dim> *>(&mapping_of(mapping, fe))),
         values(mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
                dealii::update_values | dealii::update_gradients
                    | dealii::update_JxW_values

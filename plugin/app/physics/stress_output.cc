@@ -3,6 +3,8 @@
 #include "stress_output.h"
 
 #include "nodal_means.h"
+#include "postprocessed.h"
+#include "shim/by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -92,6 +94,7 @@ namespace abut::app
   {
     const Material<dim> &material =
         materials.at(inputs.template get_cell<dim>());
+    make_room(get_names().size(), results);
     for (unsigned int q = 0; q < results.size(); ++q)
     {
       dealii::Tensor<1, dim> u;
@@ -118,23 +121,33 @@ namespace abut::app
                       const dealii::DoFHandler<dim> &dof_handler,
                       const la::Vector &displacement,
                       const Materials<dim> &materials,
-                      const dealii::FiniteElement<dim> &nodes,
+                      const dealii::DoFHandler<dim> &scalar,
                       NodalMeans<dim> &means)
     {
-      dealii::FEValues<dim> points(
-          mapping, dof_handler.get_fe(),
-          dealii::Quadrature<dim>(nodes.get_unit_support_points()),
-          dealii::update_values | dealii::update_gradients
-              | dealii::update_quadrature_points);
+      unsigned int number = 0;
+      const shim::ByElement points_of(
+          dof_handler,
+          [&](const dealii::FiniteElement<dim> &fe)
+          {
+            return dealii::FEValues<dim>(
+                mapping, fe,
+                dealii::Quadrature<dim>(
+                    scalar.get_fe(number++).get_unit_support_points()),
+                dealii::update_values | dealii::update_gradients
+                    | dealii::update_quadrature_points);
+          });
       const CellMaterials<dim> of_cells(mapping, dof_handler, displacement,
                                         materials);
       const dealii::FEValuesExtractors::Vector field(0);
-      std::vector<dealii::Tensor<1, dim>> u(nodes.n_dofs_per_cell());
-      std::vector<dealii::Tensor<2, dim>> du(nodes.n_dofs_per_cell());
+      std::vector<dealii::Tensor<1, dim>> u;
+      std::vector<dealii::Tensor<2, dim>> du;
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned())
           continue;
+        dealii::FEValues<dim> &points = points_of.of(cell);
+        u.resize(points.n_quadrature_points);
+        du.resize(points.n_quadrature_points);
         points.reinit(cell);
         points[field].get_function_values(displacement, u);
         points[field].get_function_gradients(displacement, du);
@@ -163,8 +176,7 @@ namespace abut::app
     hanging.close();
     const unsigned int n = n_stresses<dim>();
     NodalMeans<dim> means(scalar, n);
-    add_stresses(mapping, dof_handler, displacement, materials, scalar.get_fe(),
-                 means);
+    add_stresses(mapping, dof_handler, displacement, materials, scalar, means);
     std::vector<la::Vector> fields = means.means();
     fields.emplace_back(scalar.locally_owned_dofs(),
                         versions::communicator(scalar));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "stretches.h"
 
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 #include "shim/principal_values.h"
 
@@ -44,22 +45,35 @@ namespace abut::app
                            const la::Vector &displacement,
                            const Materials<dim> &materials)
   {
-    const auto &fe = dof_handler.get_fe();
-    dealii::FEValues<dim> points(mapping, fe, shim::gauss(fe, fe.degree + 1),
-                                 dealii::update_values
-                                     | dealii::update_gradients
-                                     | dealii::update_quadrature_points);
-    dealii::FEValues<dim> corners(mapping, fe, shim::vertex_rule(fe),
-                                  dealii::update_gradients);
+    const shim::ByElement points_of(
+        dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEValues<dim>(
+              mapping, fe, shim::gauss(fe, fe.degree + 1),
+              dealii::update_values | dealii::update_gradients
+                  | dealii::update_quadrature_points);
+        });
+    const shim::ByElement corners_of(dof_handler,
+                                     [&](const dealii::FiniteElement<dim> &fe)
+                                     {
+                                       return dealii::FEValues<dim>(
+                                           mapping, fe, shim::vertex_rule(fe),
+                                           dealii::update_gradients);
+                                     });
     const dealii::FEValuesExtractors::Vector field(0);
-    std::vector<dealii::Tensor<1, dim>> u(points.n_quadrature_points);
-    std::vector<dealii::Tensor<2, dim>> du(points.n_quadrature_points);
-    std::vector<dealii::Tensor<2, dim>> at_corners(corners.n_quadrature_points);
+    std::vector<dealii::Tensor<1, dim>> u;
+    std::vector<dealii::Tensor<2, dim>> du, at_corners;
     Stretches result;
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
+      dealii::FEValues<dim> &points = points_of.of(cell),
+                            &corners = corners_of.of(cell);
+      u.resize(points.n_quadrature_points);
+      du.resize(points.n_quadrature_points);
+      at_corners.resize(corners.n_quadrature_points);
       points.reinit(cell);
       points[field].get_function_values(displacement, u);
       points[field].get_function_gradients(displacement, du);

@@ -2,6 +2,7 @@
 #include "whole_matrix.h"
 
 #include "app/input/collective.h"
+#include "shim/by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -67,8 +68,8 @@ namespace abut::app
   {
     const dealii::IndexSet &owned = problem.dof_handler.locally_owned_dofs();
     const MPI_Comm communicator = versions::communicator(problem.dof_handler);
-    std::vector<global_dof_index> dofs(problem.fe.n_dofs_per_cell());
-    dealii::FullMatrix<double> matrix(problem.fe.n_dofs_per_cell());
+    std::vector<global_dof_index> dofs;
+    dealii::FullMatrix<double> matrix;
     return la::assemble(
         owned, problem.relevant, communicator,
         [&](const auto &add)
@@ -83,7 +84,9 @@ namespace abut::app
                             problem.dof_handler.active_cell_iterators())
                          if (cell->is_locally_owned())
                          {
-                           cell->get_dof_indices(dofs);
+                           shim::get_dofs(cell, dofs);
+                           if (matrix.m() != dofs.size())
+                             matrix.reinit(dofs.size(), dofs.size());
                            compute(cell, dofs, matrix);
                            add_lines(matrix, parents_of(problem, dofs), lumped,
                                      add);

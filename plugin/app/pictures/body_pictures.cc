@@ -2,17 +2,19 @@
 
 #include "body_pictures.h"
 
+#include "app/physics/scalar_field.h"
 #include "app/physics/stress_output.h"
 #include "gnuplot.h"
 #include "picture_parts.h"
 #include "raster.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 #include "zero_line.h"
 
+#include <abut/dealii/mapping_by_cell.h>
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q_eulerian.h>
@@ -114,11 +116,17 @@ namespace abut::app
     displaced(const dealii::DoFHandler<2> &dof_handler,
               const la::Vector &displacement)
     {
-      const dealii::FiniteElement<2> &fe = dof_handler.get_fe();
-      if (shim::is_simplex(fe))
-        return std::make_unique<DisplacedVertices>(dof_handler, displacement);
-      return std::make_unique<dealii::MappingQEulerian<2, la::Vector>>(
-          fe.degree, dof_handler, displacement);
+      using Cubes = dealii::MappingQEulerian<2, la::Vector>;
+      const DisplacedVertices simplices(dof_handler, displacement);
+      dealii::hp::MappingCollection<2> mappings;
+      for (const dealii::FiniteElement<2> *fe : shim::elements(dof_handler))
+        if (shim::is_simplex(*fe))
+          mappings.push_back(simplices);
+        else
+          mappings.push_back(Cubes(fe->degree, dof_handler, displacement));
+      return mappings.size() == 1
+                 ? mappings[0].clone()
+                 : std::make_unique<MappingByCell<2>>(mappings);
     }
 
     /** Edges of all boundary faces, two lines each and an interruption. */
@@ -312,10 +320,7 @@ namespace abut::app
     const std::unique_ptr<dealii::Mapping<2>> deformed =
         displaced(dof_handler, drawn);
     dealii::DoFHandler<2> scalar(dof_handler.get_triangulation());
-    if (shim::is_simplex(dof_handler.get_fe()))
-      scalar.distribute_dofs(dealii::FE_SimplexP<2>(1));
-    else
-      scalar.distribute_dofs(dealii::FE_Q<2>(1));
+    distribute_linear(dof_handler, scalar);
     const std::vector<la::Vector> stresses =
         nodal_stress(mapping, dof_handler, displacement, materials, scalar);
     const Raster raster =

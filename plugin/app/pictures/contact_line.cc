@@ -8,6 +8,7 @@
 
 #include "app/restart/disk.h"
 #include "contact_output.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
@@ -45,16 +46,16 @@ namespace abut::app
       using Cell = dealii::DoFHandler<2>::active_cell_iterator;
 
       FaceReader(const dealii::Mapping<2> &mapping,
-                 const dealii::FiniteElement<2> &fe,
                  const ContactLineFields &fields)
-          : mapping(mapping), fe(fe), fields(fields), dofs(fe.n_dofs_per_cell())
+          : mapping(mapping), fields(fields)
       {
       }
 
       /** Append the edges of a face from node to node. */
       void read(const Cell &cell, const unsigned int f, std::vector<Edge> &out)
       {
-        cell->get_dof_indices(dofs);
+        shim::get_dofs(cell, dofs);
+        const auto &fe = cell->get_fe();
         const auto face = cell->face(f);
         const dealii::Tensor<1, 2> along = face->vertex(1) - face->vertex(0);
         const dealii::Tensor<1, 2> outward = face->center() - cell->center();
@@ -66,7 +67,7 @@ namespace abut::app
             const dealii::Point<2> x = mapping.transform_unit_to_real_cell(
                 cell, fe.unit_support_point(i));
             ordered[(x - face->vertex(0)) * along] = {
-                dofs[i], values(x, node_dofs(i), outward)};
+                dofs[i], values(x, node_dofs(fe, i), outward)};
           }
         for (auto next = ordered.begin(); std::next(next) != ordered.end();
              ++next)
@@ -75,7 +76,8 @@ namespace abut::app
 
     private:
       /** Both unknowns of the node of shape function @p i. */
-      std::array<Key, 2> node_dofs(const unsigned int i) const
+      std::array<Key, 2> node_dofs(const dealii::FiniteElement<2> &fe,
+                                   const unsigned int i) const
       {
         std::array<Key, 2> result = {{dofs[i], dofs[i]}};
         for (unsigned int j = 0; j < dofs.size(); ++j)
@@ -129,7 +131,6 @@ namespace abut::app
       }
 
       const dealii::Mapping<2> &mapping;
-      const dealii::FiniteElement<2> &fe;
       const ContactLineFields &fields;
       std::vector<Key> dofs;
     };
@@ -242,7 +243,7 @@ namespace abut::app
                 const std::set<dealii::types::boundary_id> &ids,
                 const ContactLineFields &fields)
   {
-    FaceReader reader(mapping, dof_handler.get_fe(), fields);
+    FaceReader reader(mapping, fields);
     std::vector<Edge> mine;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() && cell->at_boundary())

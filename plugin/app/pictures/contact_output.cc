@@ -2,8 +2,11 @@
 
 #include "contact_output.h"
 
+#include "app/physics/postprocessed.h"
+
 #include <deal.II/dofs/dof_tools.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,7 +25,10 @@ namespace abut::app
       const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
       std::vector<dealii::Vector<double>> &results) const
   {
-    for (unsigned int q = 0; q < results.size(); ++q)
+    make_room(1, results);
+    // Of faces with fewer points than others.
+    const std::size_t n = std::min(results.size(), inputs.normals.size());
+    for (unsigned int q = 0; q < n; ++q)
     {
       double square = 0;
       double along = 0;
@@ -53,7 +59,10 @@ namespace abut::app
       const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
       std::vector<dealii::Vector<double>> &results) const
   {
-    for (unsigned int q = 0; q < results.size(); ++q)
+    make_room(1, results);
+    // Of faces with fewer points than others.
+    const std::size_t n = std::min(results.size(), inputs.normals.size());
+    for (unsigned int q = 0; q < n; ++q)
     {
       dealii::Tensor<1, dim> traction;
       for (unsigned int d = 0; d < dim; ++d)
@@ -77,6 +86,7 @@ namespace abut::app
       const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
       std::vector<dealii::Vector<double>> &results) const
   {
+    make_room(1, results);
     for (unsigned int q = 0; q < results.size(); ++q)
       results[q][0] = inputs.solution_values[q][0];
   }
@@ -94,6 +104,7 @@ namespace abut::app
       const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
       std::vector<dealii::Vector<double>> &results) const
   {
+    make_room(1, results);
     const auto face =
         inputs.template get_cell<dim>()->face(inputs.get_face_number());
     for (dealii::Vector<double> &result : results)
@@ -130,6 +141,7 @@ namespace abut::app
       const dealii::DataPostprocessorInputs::Vector<dim> &inputs,
       std::vector<dealii::Vector<double>> &results) const
   {
+    make_room(1, results);
     for (unsigned int q = 0; q < results.size(); ++q)
       results[q][0] = gap_of_row(inputs.solution_values[q][0],
                                  inputs.solution_values[q][1]);

@@ -4,6 +4,7 @@
 
 #include "app/input/collective.h"
 #include "app/restart/disk.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/versions.h>
@@ -154,9 +155,12 @@ namespace abut::app
     // Lines are drawn straight, in pieces: deal.II 9.6 knows no curved ones.
     const int cell_dim = fields.faces.empty() ? dim : dim - 1;
     // Quadratic triangles and tetrahedra are cells of VTK of their own.
-    const dealii::FiniteElement<dim> &fe = fields.dof_handler.get_fe();
+    const auto fes = shim::elements(fields.dof_handler);
     flags.write_higher_order_cells =
-        cell_dim > 1 && fe.degree > 1 && !shim::is_simplex(fe);
+        cell_dim > 1
+        && std::all_of(fes.begin(), fes.end(),
+                       [](const auto *fe)
+                       { return fe->degree > 1 && !shim::is_simplex(*fe); });
     // The smallest files would take longer to pack than the fields to solve
     // for; these are about a quarter larger. (The enumeration has another name
     // in later versions of deal.II.)
@@ -219,7 +223,8 @@ namespace abut::app
   template <int dim>
   void FieldSeries::write(const double time, const Fields<dim> &fields)
   {
-    const unsigned int degree = fields.dof_handler.get_fe().degree;
+    const unsigned int degree =
+        fields.dof_handler.get_fe_collection().max_degree();
     if (!fields.faces.empty())
     {
       NamedOutput<FaceOutput<dim>> output(fields.faces);

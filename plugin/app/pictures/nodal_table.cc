@@ -3,6 +3,7 @@
 
 #include "app/input/collective.h"
 #include "app/restart/disk.h"
+#include "shim/by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -41,26 +42,32 @@ namespace abut::app
                         const dealii::DoFHandler<dim> &dof_handler,
                         const std::vector<NodalColumn> &columns)
     {
-      const dealii::FiniteElement<dim> &fe = dof_handler.get_fe();
-      const dealii::FiniteElement<dim> &element = fe.base_element(0);
-      dealii::FEValues<dim> nodes(
-          mapping, element,
-          dealii::Quadrature<dim>(element.get_unit_support_points()),
-          dealii::update_quadrature_points);
+      const shim::ByElement nodes_of(
+          dof_handler,
+          [&](const dealii::FiniteElement<dim> &fe)
+          {
+            return dealii::FEValues<dim>(
+                mapping, fe.base_element(0),
+                dealii::Quadrature<dim>(
+                    fe.base_element(0).get_unit_support_points()),
+                dealii::update_quadrature_points);
+          });
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
       std::vector<bool> seen(owned.n_elements(), false);
-      std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      std::vector<dealii::types::global_dof_index> dofs;
       std::ostringstream out;
       out << std::setprecision(17);
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned())
           continue;
+        const dealii::FiniteElement<dim> &fe = cell->get_fe();
+        dealii::FEValues<dim> &nodes = nodes_of.of(cell);
         nodes.reinit(
             static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
                 cell));
-        cell->get_dof_indices(dofs);
-        for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+        shim::get_dofs(cell, dofs);
+        for (unsigned int i = 0; i < nodes.n_quadrature_points; ++i)
         {
           const auto first = dofs[fe.component_to_system_index(0, i)];
           if (!owned.is_element(first) || seen[owned.index_within_set(first)])

@@ -112,12 +112,8 @@ namespace abut::app
     {
     public:
       CellSampler(const dealii::Mapping<dim> &mapping,
-                  const dealii::FiniteElement<dim> &fe,
                   const std::vector<RasterField> &fields)
-          : mapping(mapping),
-            fe(fe),
-            fields(fields),
-            values(fields.size(), dealii::Vector<double>(fe.n_dofs_per_cell()))
+          : mapping(mapping), fields(fields), values(fields.size())
       {
       }
 
@@ -127,8 +123,12 @@ namespace abut::app
       {
         cell = new_cell;
         affine.reinit(mapping, cell);
+        fe = &cell->get_fe();
         for (std::size_t f = 0; f < fields.size(); ++f)
+        {
+          values[f].reinit(fe->n_dofs_per_cell(), true);
           cell->get_dof_values(*fields[f].values, values[f]);
+        }
       }
 
       /** Raise the raster's entry @p index to the values at @p point, if the
@@ -161,7 +161,7 @@ namespace abut::app
           {
             return false;
           }
-        return fe.reference_cell().contains_point(unit, 1e-8);
+        return fe->reference_cell().contains_point(unit, 1e-8);
       }
 
       double interpolated(const dealii::Vector<double> &nodal,
@@ -169,14 +169,14 @@ namespace abut::app
       {
         double sum = 0;
         for (unsigned int i = 0; i < nodal.size(); ++i)
-          sum += nodal[i] * fe.shape_value(i, unit);
+          sum += nodal[i] * fe->shape_value(i, unit);
         return sum;
       }
 
       double nearest(const dealii::Vector<double> &nodal,
                      const dealii::Point<dim> &unit) const
       {
-        const auto &nodes = fe.get_unit_support_points();
+        const auto &nodes = fe->get_unit_support_points();
         const auto closer =
             [&unit](const dealii::Point<dim> &a, const dealii::Point<dim> &b)
         { return a.distance_square(unit) < b.distance_square(unit); };
@@ -186,9 +186,9 @@ namespace abut::app
       }
 
       const dealii::Mapping<dim> &mapping;
-      const dealii::FiniteElement<dim> &fe;
       const std::vector<RasterField> &fields;
       Cell cell;
+      const dealii::FiniteElement<dim> *fe = nullptr; ///< of the cell
       AffineMap<dim> affine;
       std::vector<dealii::Vector<double>> values;
     };
@@ -219,7 +219,7 @@ namespace abut::app
     raster.fields.assign(fields.size(),
                          std::vector<double>(raster.nx * raster.ny, nothing));
 
-    CellSampler<dim> sampler(mapping, dof_handler.get_fe(), fields);
+    CellSampler<dim> sampler(mapping, fields);
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())

@@ -102,7 +102,8 @@ namespace abut::app
     {
       const MPI_Comm communicator = versions::communicator(mesh);
       const std::size_t per_cell =
-          128 + n_fields * 8 * dof_handler.get_fe().n_dofs_per_cell();
+          128
+          + n_fields * 8 * dof_handler.get_fe_collection().max_dofs_per_cell();
       collective(
           communicator,
           [&]

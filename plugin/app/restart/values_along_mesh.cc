@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "values_along_mesh.h"
 
+#include "shim/by_element.h"
+
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,16 +17,16 @@ namespace abut::app
     void for_each_owned(const dealii::DoFHandler<dim> &dof_handler,
                         const Visit &visit)
     {
-      const auto &fe = dof_handler.get_fe();
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
-      std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      std::vector<dealii::types::global_dof_index> dofs;
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
         if (!cell->is_locally_owned())
           continue;
+        const auto &fe = cell->get_fe();
         const std::vector<std::size_t> nodes =
             nodes_along_mesh<dim>(cell, fe.degree);
-        cell->get_dof_indices(dofs);
+        shim::get_dofs(cell, dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
           const auto [component, node] = fe.system_to_component_index(i);
@@ -44,9 +46,22 @@ namespace abut::app
     std::vector<std::size_t> nodes;
     for (const unsigned int v : cell->vertex_indices())
       nodes.push_back(cell->vertex_index(v));
-    for (unsigned int l = 0; l < cell->n_lines() && degree > 1; ++l)
-      nodes.push_back(cell->get_triangulation().n_vertices()
-                      + cell->line(l)->index());
+    if (degree == 1)
+      return nodes;
+    const auto &mesh = cell->get_triangulation();
+    std::size_t first = mesh.n_vertices();
+    for (unsigned int l = 0; l < cell->n_lines(); ++l)
+      nodes.push_back(first + cell->line(l)->index());
+    if (!cell->reference_cell().is_hyper_cube())
+      return nodes;
+    first += mesh.n_raw_lines();
+    if (dim == 3)
+    {
+      for (const unsigned int f : cell->face_indices())
+        nodes.push_back(first + cell->face_index(f));
+      first += mesh.n_raw_faces();
+    }
+    nodes.push_back(first + cell->active_cell_index());
     return nodes;
   }
 
@@ -56,8 +71,10 @@ namespace abut::app
                     const la::Vector &field)
   {
     const auto &mesh = dof_handler.get_triangulation();
-    std::vector<double> mine((mesh.n_vertices() + mesh.n_raw_lines())
-                             * dof_handler.get_fe().n_components());
+    std::size_t n_nodes = mesh.n_vertices() + mesh.n_raw_lines();
+    if (!mesh.all_reference_cells_are_simplex())
+      n_nodes += (dim == 3 ? mesh.n_raw_faces() : 0) + mesh.n_active_cells();
+    std::vector<double> mine(n_nodes * dof_handler.get_fe().n_components());
     for_each_owned(dof_handler,
                    [&](const auto position, const std::size_t number)
                    { mine[number] = la::data(field)[position]; });

@@ -27,8 +27,8 @@ namespace abut::app
   template <int dim> class ContactModel
   {
   public:
-    /** @param simplices whether cells are triangles or tetrahedra: all ranks
-     * have all of them; others are p4est's */
+    /** @param simplices whether there are triangles or tetrahedra: all ranks
+     * have all cells then; others are p4est's */
     explicit ContactModel(const MPI_Comm communicator,
                           const bool simplices = false)
         : mesh(make_mesh(communicator, simplices)), triangulation(*mesh)
@@ -51,11 +51,12 @@ namespace abut::app
     {
       return {};
     }
+    /** Triangles or tetrahedra, perhaps beside other cells. */
     bool has_simplices() const
     {
-      return triangulation.all_reference_cells_are_simplex();
+      return !triangulation.all_reference_cells_are_hyper_cube();
     }
-    /** Refine the mesh that create_mesh() has made. One of triangles or
+    /** Refine the mesh that create_mesh() has made. One with triangles or
      * tetrahedra has its levels already. Collective. */
     void refine_mesh(const unsigned int levels)
     {

@@ -83,10 +83,10 @@ namespace abut::app
     const DiscreteProblem<dim> &problem = model.problem();
     linear_solver =
         std::make_unique<solve::MaskedSolver>(state.settings.solver);
-    linear_solver->set_near_null_space(shim::make_solver_space(
-        problem.mapping, problem.dof_handler, problem.constraints,
-        problem.dof_handler.get_fe().n_components() > 1, state.settings.solver,
-        problem.vertex_origins));
+    linear_solver->set_near_null_space(
+        shim::make_solver_space(problem.mapping, problem.dof_handler,
+                                problem.constraints, problem.n_components() > 1,
+                                state.settings.solver, problem.vertex_origins));
     linear_solver->reinit(problem.stiffness);
   }
 
@@ -639,12 +639,12 @@ namespace abut::app
   {
     DiscreteProblem<dim> &problem = model.problem();
     check_memory_of_flags(
-        model.triangulation, problem.fe.degree,
+        model.triangulation, problem.elements[0].degree,
         state.control.is_on() ? "Refinement/Target error"
         : state.settings.refinement.is_adaptive(state.mesh_number)
             ? "Refinement/Adaptive cycles"
             : "Refinement/Level",
-        problem.fe.n_components());
+        problem.n_components());
     std::vector<la::Vector> fields;
     if (model.has_simplices())
       fields = bisect();

@@ -3,6 +3,8 @@
 // steps is that of the bodies.
 #include "solid_model.h"
 
+#include "shim/by_element.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -96,15 +98,19 @@ namespace abut::app
   {
     pairs->place_obstacle(obstacle, displacement);
     const la::Vector u = elasticity.ghosted(run.u);
-    const auto &fe = elasticity.fe;
-    dealii::FEFaceValues<dim> nodes(
-        elasticity.mapping, fe,
-        dealii::Quadrature<dim - 1>(
-            fe.base_element(0).get_unit_face_support_points()),
-        dealii::update_values | dealii::update_quadrature_points);
+    const shim::ByElement nodes_of(
+        elasticity.dof_handler,
+        [&](const dealii::FiniteElement<dim> &fe)
+        {
+          return dealii::FEFaceValues<dim>(
+              elasticity.mapping, fe,
+              dealii::Quadrature<dim - 1>(
+                  fe.base_element(0).get_unit_face_support_points()),
+              dealii::update_values | dealii::update_quadrature_points);
+        });
     const dealii::FEValuesExtractors::Vector all(0);
-    std::vector<dealii::Tensor<1, dim>> moved(nodes.n_quadrature_points);
-    std::vector<dealii::Point<dim>> places(nodes.n_quadrature_points);
+    std::vector<dealii::Tensor<1, dim>> moved;
+    std::vector<dealii::Point<dim>> places;
     std::vector<double> distances;
     double least = std::numeric_limits<double>::infinity();
     for (const auto &cell : elasticity.dof_handler.active_cell_iterators())
@@ -118,6 +124,9 @@ namespace abut::app
           if (pairs->obstacle_of(p) != obstacle || !cell->at_boundary(f)
               || pair.secondary.count(cell->face(f)->boundary_id()) == 0)
             continue;
+          dealii::FEFaceValues<dim> &nodes = nodes_of.of(cell);
+          moved.resize(nodes.n_quadrature_points);
+          places.resize(nodes.n_quadrature_points);
           nodes.reinit(cell, f);
           nodes[all].get_function_values(u, moved);
           for (std::size_t q = 0; q < places.size(); ++q)

@@ -26,6 +26,14 @@ namespace abut::app
       return dim == 2 && parameters.plane == PlaneModel::axisymmetric;
     }
 
+    template <int dim>
+    CellDegrees degrees_of(const SolidParameters &parameters,
+                           const BodyMeshes<dim> &coarse)
+    {
+      return {coarse.has_cubes() ? parameters.degree : 0,
+              coarse.has_simplices() ? parameters.simplex_degree : 0};
+    }
+
     /** Column of levels.csv with a component of the force on a pair's
      * secondary side. */
     std::string force_column(const std::size_t pair, const unsigned int d)
@@ -39,10 +47,10 @@ namespace abut::app
                               ContactRunState<dim> &run,
                               const SearchParameters &search,
                               BodyMeshes<dim> coarse)
-      : MovingModel<dim>(run, coarse.are_simplices),
+      : MovingModel<dim>(run, coarse.has_simplices()),
         parameters(parameters),
         bodies(parameters.bodies, is_of_revolution<dim>(parameters)),
-        elasticity(this->triangulation, parameters.degree, coarse.are_simplices,
+        elasticity(this->triangulation, degrees_of(parameters, coarse),
                    coarse.middles),
         driven(parameters),
         search(search),
@@ -77,7 +85,7 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::create_mesh()
   {
-    bodies.create(coarse, run.options, parameters.degree,
+    bodies.create(coarse, run.options, degrees_of(parameters, coarse),
                   parameters.refinement.level, this->triangulation);
     coarse = BodyMeshes<dim>();
     for (const std::string &warning : bodies.warnings())

@@ -76,7 +76,8 @@ namespace abut::app
       prm.declare_entry("Degree", "auto", Patterns::Selection("auto|1|2"),
                         "Polynomial degree of the displacement. auto: 1 for "
                         "quadrilaterals and hexahedra, 2 for triangles and "
-                        "tetrahedra, which are too stiff with 1.");
+                        "tetrahedra, which are too stiff with 1, each for its "
+                        "own cells where a scene has both.");
       // Known in both dimensions, so that one reference tells of it.
       prm.declare_entry("Plane", "strain",
                         Patterns::Selection("strain|stress|axisymmetric"),
@@ -208,21 +209,20 @@ namespace abut::app
              "Refinement/Adaptive cycles refines by it all the same.");
   }
 
-  void SolidParameters::begin_simplices(const unsigned int dim)
+  void SolidParameters::begin_simplices(const unsigned int dim,
+                                        const std::vector<bool> &of_simplices)
   {
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";
-    if (!has_degree)
-      degree = 2;
     refinement.nested = false;
-    for (const BodyParameters &body : bodies)
-      if (body.volume == VolumeChange::of_cell)
-        throw InputError(body.parameter("Element"),
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (of_simplices[i] && bodies[i].volume == VolumeChange::of_cell)
+        throw InputError(bodies[i].parameter("Element"),
                          "mean dilatation is for quadrilaterals and hexahedra: "
                          "linear "
                              + cells
                              + " have one strain in each cell anyway. Set it "
                                "to full integration, and Solid/Degree = 2.");
-    if (time.is_on && time.mass == ABUT_TIME_MASS_LUMPED && degree > 1)
+    if (time.is_on && time.mass == ABUT_TIME_MASS_LUMPED && simplex_degree > 1)
       throw InputError(
           "Solid/Degree",
           "quadratic " + cells
@@ -273,6 +273,7 @@ namespace abut::app
     prm.enter_subsection("Solid");
     has_degree = prm.get("Degree") != "auto";
     degree = has_degree ? prm.get_integer("Degree") : 1;
+    simplex_degree = has_degree ? degree : 2;
     const std::string word = prm.get("Plane");
     plane = word == "strain"   ? PlaneModel::strain
             : word == "stress" ? PlaneModel::stress

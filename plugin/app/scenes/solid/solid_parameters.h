@@ -30,8 +30,9 @@ namespace abut::app
   /** All parameters of the scene `solid` but those of the methods. */
   struct SolidParameters
   {
-    unsigned int degree = 1;
-    bool has_degree = false; ///< given by the file
+    unsigned int degree = 1;         ///< of quadrilaterals and hexahedra
+    unsigned int simplex_degree = 2; ///< of triangles and tetrahedra
+    bool has_degree = false;         ///< given by the file
     PlaneModel plane = PlaneModel::strain;
     bool large_strain = false;         ///< allowed
     bool solve_known_failures = false; ///< pairs that are known to fail
@@ -58,9 +59,11 @@ namespace abut::app
                         const SolidCounts &counts);
     void parse(dealii::ParameterHandler &prm, const SolidCounts &counts);
 
-    /** Make all fit meshes of triangles (2D) or tetrahedra; throws InputError
-     * for what they do not have. After parse(). */
-    void begin_simplices(unsigned int dim);
+    /** Make all fit meshes of triangles (2D) or tetrahedra, which some bodies
+     * have; throws InputError for what they do not have. After parse().
+     * @param of_simplices [bodies] */
+    void begin_simplices(unsigned int dim,
+                         const std::vector<bool> &of_simplices);
 
     /** Whether bodies are of materials for large strain. */
     bool has_large_strain() const

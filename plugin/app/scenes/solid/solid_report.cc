@@ -10,6 +10,7 @@
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
+#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 
 #include <abut/dealii/pair_measures.h>
@@ -130,13 +131,12 @@ namespace abut::app
     const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
     std::vector<bool> seen(owned.n_elements(), false);
     std::vector<double> sums(dim * bodies.size(), 0.);
-    const auto &fe = elasticity.fe;
-    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : elasticity.dof_handler.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
-      cell->get_dof_indices(dofs);
+      shim::get_dofs(cell, dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
         if (!owned.is_element(dofs[i])
@@ -147,7 +147,8 @@ namespace abut::app
           continue;
         seen[local] = true;
         sums[cell->material_id() * dim
-             + fe.system_to_component_index(i).first] += forces(dofs[i]);
+             + cell->get_fe().system_to_component_index(i).first] +=
+            forces(dofs[i]);
       }
     }
     MPI::sum(sums, communicator, sums);
@@ -477,11 +478,18 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::report_locking() const
   {
-    if (shim::is_simplex(elasticity.fe))
-    {
-      report_linear_simplices();
-      return;
-    }
+    double locked = -1.; // not known
+    if (model.has_simplices())
+      locked = report_linear_simplices();
+    if (elasticity.elements.size() > 1
+        || !shim::is_simplex(elasticity.elements[0]))
+      locked = std::max(locked, report_volumetric_locking());
+    if (locked >= 0.)
+      report.set("locked_energy", locked);
+  }
+
+  template <int dim> double SolidReport<dim>::report_volumetric_locking() const
+  {
     double poisson_ratio = 0.;
     for (const auto &material : model.data.materials)
       if (material.second->cell_volume() == nullptr)
@@ -489,11 +497,10 @@ namespace abut::app
             std::max(poisson_ratio, material.second->poisson_ratio());
     if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
         || poisson_ratio < least_locking_ratio)
-      return;
+      return -1.;
     const double locked =
         volumetric_locking(elasticity.mapping, elasticity.dof_handler,
                            elasticity.ghosted(u), model.data.materials);
-    report.set("locked_energy", locked);
     if (locked > visible_locking)
       report.warn(coded(
           ABUT_FAILURE_LOCKING,
@@ -505,18 +512,18 @@ namespace abut::app
                 "too large. Set Body N/Element = mean dilatation, or "
                 "Solid/Degree "
                 "= 2."));
+    return locked;
   }
 
-  template <int dim> void SolidReport<dim>::report_linear_simplices() const
+  template <int dim> double SolidReport<dim>::report_linear_simplices() const
   {
-    if (parameters.degree > 1 || parameters.has_large_strain())
-      return;
+    if (parameters.simplex_degree > 1 || parameters.has_large_strain())
+      return -1.;
     const double locked =
         linear_stiffness_error(elasticity.mapping, elasticity.dof_handler,
                                elasticity.ghosted(u), model.data.materials);
-    report.set("locked_energy", locked);
     if (locked <= visible_stiffness)
-      return;
+      return locked;
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";
     report.warn(coded(
         ABUT_FAILURE_LOCKING,
@@ -527,6 +534,7 @@ namespace abut::app
             + " have one strain in each cell and are too stiff. Under loads "
               "displacements are too small by as much, prescribed ones take "
               "too large forces. Set Solid/Degree = 2."));
+    return locked;
   }
 
   template <int dim> void SolidReport<dim>::model_lines() const

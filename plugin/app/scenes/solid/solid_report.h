@@ -35,7 +35,9 @@ namespace abut::app
     void report_transfer() const;
     void report_numerics() const;
     void report_locking() const;
-    void report_linear_simplices() const;
+    /** Part of the energy that elements take away, -1: not known. */
+    double report_volumetric_locking() const;
+    double report_linear_simplices() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
     std::pair<double, double> report_pairs() const;
     /** What angles of coarse facets do to pressures. */

@@ -29,20 +29,23 @@ namespace abut::app
         {"Refinement/Coarsen fraction", "they are bisected, and stay so."}};
 
     /** Whether points can move in this way in all pairs that may slide.
-     * @param tri6 whether facets are quadratic triangles */
+     * @param tri6 [pairs] whether secondary facets are quadratic triangles */
     bool can_move(const abut_kinematics kinematics,
                   const MethodParameters &method,
-                  const std::vector<PairParameters> &pairs, const bool tri6)
+                  const std::vector<PairParameters> &pairs,
+                  const std::vector<bool> &tri6)
     {
+      std::size_t number = 0;
       return std::all_of(
           pairs.begin(), pairs.end(),
           [&](const PairParameters &pair)
           {
+            const bool has_tri6 = tri6[number++];
             // Between bodies a uniform pressure is worth more, unless asked
             // for.
             const abut_discretisation discretisation =
                 method.discretisation.value_or(
-                    tri6                ? ABUT_DISCRETISATION_MORTAR
+                    has_tri6            ? ABUT_DISCRETISATION_MORTAR
                     : pair.obstacle > 0 ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
                                         : ABUT_DISCRETISATION_DUAL_MORTAR);
             return pair.tied
@@ -105,10 +108,11 @@ namespace abut::app
                            "strain: use lagrange or augmented lagrangian.");
         this->method.solve_known_failures = parameters.solve_known_failures;
         given_kinematics = this->method.kinematics;
-        choose_kinematics(false);
+        choose_kinematics(std::vector<bool>(parameters.pairs.size(), false));
       }
 
-      void choose_kinematics(const bool tri6)
+      /** @param tri6 as of can_move() */
+      void choose_kinematics(const std::vector<bool> &tri6)
       {
         const std::vector<abut_kinematics> possible =
             suitable(given_kinematics, parameters.has_large_strain(),
@@ -122,7 +126,7 @@ namespace abut::app
       void prepare(const RunOptions &options) override
       {
         meshes = create_body_meshes<dim>(parameters.bodies, options);
-        if (!meshes.are_simplices)
+        if (!meshes.has_simplices())
           return;
         for (const CubeParameter &each : given_of_cubes)
           if (!parameters.refinement.has_target()
@@ -130,22 +134,21 @@ namespace abut::app
             throw InputError(each.path,
                              "has no effect on triangles and tetrahedra: "
                                  + std::string(each.reason));
-        parameters.begin_simplices(dim);
-        if (parameters.degree == 1)
+        std::vector<bool> of_simplices;
+        for (std::size_t body = 0; body < meshes.meshes.size(); ++body)
+          of_simplices.push_back(meshes.are_simplices(body));
+        parameters.begin_simplices(dim, of_simplices);
+        if (parameters.simplex_degree == 1)
           meshes.straighten("Solid/Degree = 1");
-        const RefinementParameters &refinement = parameters.refinement;
-        if (meshes.middles
-            && (refinement.has_target() || refinement.adaptive_cycles > 0))
-          throw InputError(refinement.has_target()
-                               ? "Refinement/Target error"
-                               : "Refinement/Adaptive cycles",
-                           "meshes with curved edges are refined in all cells "
-                           "only: set it to 0, and refine by Refinement/Level "
-                           "or Body N/Refinements, or write the file with "
-                           "straight edges.");
-        const bool tri6 = dim == 3 && parameters.degree == 2;
+        check_refinement();
+        std::vector<bool> tri6;
+        for (const PairParameters &pair : parameters.pairs)
+          tri6.push_back(
+              dim == 3 && parameters.simplex_degree == 2
+              && meshes.may_have_simplices(pair.secondary, parameters.bodies));
         const char *why = nullptr;
-        if (tri6 && this->method.discretisation
+        if (std::count(tri6.begin(), tri6.end(), true) > 0
+            && this->method.discretisation
             && abut_coupling_check(*this->method.discretisation, 1,
                                    ABUT_FACET_TRI6, &why)
                    != ABUT_SUCCESS
@@ -156,6 +159,34 @@ namespace abut::app
                            std::string(why)
                                + ": Method/Discretisation = auto.");
         choose_kinematics(tri6);
+      }
+
+      /** Of meshes with triangles or tetrahedra. */
+      void check_refinement() const
+      {
+        const RefinementParameters &refinement = parameters.refinement;
+        const auto refuse =
+            [&](const std::string &why, const std::string &other)
+        {
+          throw InputError(refinement.has_target()
+                               ? "Refinement/Target error"
+                               : "Refinement/Adaptive cycles",
+                           why
+                               + ": set it to 0, and refine by "
+                                 "Refinement/Level or Body N/Refinements, or "
+                               + other);
+        };
+        if (!refinement.has_target() && refinement.adaptive_cycles == 0)
+          return;
+        if (meshes.middles)
+          refuse("meshes with curved edges are refined in all cells only",
+                 "write the file with straight edges.");
+        if (meshes.has_cubes())
+          refuse(std::string("bodies of ")
+                     + (dim == 2 ? "triangles beside others of quadrilaterals"
+                                 : "tetrahedra beside others of hexahedra")
+                     + " are refined in all cells only",
+                 "mesh all bodies with the same kind of cells.");
       }
 
       std::vector<EffectRule> effects() const override
