@@ -88,7 +88,7 @@ public:
 
   std::string linear_solver() const
   {
-    return contact.linear_report().method;
+    return contact.results().effort().linear.method;
   }
 
 private:
