@@ -131,7 +131,7 @@ namespace abut
                              "ContactAssembler::solve()."));
     if (!i.is_started)
     {
-      i.find_row_stiffness(stiffness);
+      i.scales.find_compliance(stiffness);
       i.begin(stiffness, residual);
     }
     if (i.moving.has_geometry())

@@ -184,7 +184,7 @@ namespace abut
     i.start_displacement = la::Vector();
     i.committed.leave_mesh();
     i.slip_reference = {};
-    i.law_compliance = la::Vector();
+    i.scales.law_compliance = la::Vector();
     i.report = LinearReport();
   }
 
@@ -209,7 +209,7 @@ namespace abut
       i.surfaces->set().set_gaps(i.pairs);
     i.has_new_gaps = false;
     i.has_rows = false;
-    i.raises = shim::GapRaises();
+    i.raises.clear();
     i.committed.check_approach(displacement, [&](const auto &motions)
                                { return i.displacement_of(motions); });
     i.find_rows_in_reach(displacement);
@@ -276,6 +276,35 @@ namespace abut
       i.follow(displacement);
   }
 
+  template <int dim>
+  bool
+  ContactAssembler<dim>::raise_gaps(const la::VectorView &given_displacement)
+  {
+    auto &i = *implementation;
+    const la::Vector &displacement =
+        i.given("raise_gaps()", "displacement", given_displacement);
+    if (!i.raises.raise(displacement))
+      return false;
+    i.compute_gap(displacement);
+    return true;
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::limit_raises(
+      const la::MutableVectorView &given_displacement)
+  {
+    auto &i = *implementation;
+    i.check_rows("limit_raises()");
+    la::Vector &displacement = i.host.mutable_vector(
+        "limit_raises()", "displacement", given_displacement);
+    shim::RowValues values;
+    if (!i.raises.limit(displacement, values))
+      return false;
+    i.move_rows(displacement, values);
+    i.is_started = false;
+    return true;
+  }
+
   template <int dim> bool ContactAssembler<dim>::points_move() const
   {
     return implementation->moves();
@@ -336,8 +365,8 @@ namespace abut
     {
       report.n_systems += i.request.action == ABUT_ACTION_SOLVE;
       tolerance = i.request.linear_tolerance;
-      report +=
-          i.solver->solve(forces, i.request, i.smallest_residual, increment);
+      report += i.solver->solve(forces, i.request, i.scales.smallest_residual,
+                                increment);
       i.next();
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
@@ -428,7 +457,8 @@ namespace abut
     for (int row = 0; row < i.coefficients.n_rows(); ++row)
     {
       const double defect = i.law_defect(row, gap[row]);
-      sum += i.coefficients.weight(row) * i.stiffness[row] * defect * defect;
+      sum += i.coefficients.weight(row) * i.scales.stiffness[row] * defect
+             * defect;
     }
     return std::sqrt(dealii::Utilities::MPI::sum(sum, i.communicator));
   }
@@ -439,7 +469,7 @@ namespace abut
     auto &i = *implementation;
     i.host.check_mesh("set_reference_stiffness()");
     i.host.set_reference("set_reference_stiffness()", tangent);
-    i.law_compliance = la::Vector();
+    i.scales.law_compliance = la::Vector();
     i.has_new_matrix = true;
   }
 
@@ -448,7 +478,7 @@ namespace abut
   {
     AssertThrow(length >= 0. && std::isfinite(length),
                 ExcMessage("A length scale must be positive, or 0."));
-    implementation->given_length = length;
+    implementation->scales.given_length = length;
   }
 
   template <int dim>
@@ -458,7 +488,7 @@ namespace abut
     const auto &i = *implementation;
     const la::Vector &displacement =
         i.given("length_scale()", "displacement", given_displacement);
-    const double length = i.length_scale(displacement);
+    const double length = i.scales.length_scale(displacement);
     // Obstacles may come to bodies that rest.
     const bool may_come = i.surfaces != nullptr
                           && (i.surfaces->set().has_steps()

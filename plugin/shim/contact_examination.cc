@@ -453,7 +453,7 @@ namespace abut::shim
       const Deepest deepest(
           i.source->facet_penetrations(displacement, i.row_states().data()), 0,
           i.communicator);
-      result.deformation = i.deformation(displacement);
+      result.deformation = i.scales.deformation(displacement);
       result.missed_depth = deepest.missed;
       double cell = 0.;
       for (const auto &some : i.host.dof_handler().active_cell_iterators())
@@ -526,7 +526,7 @@ namespace abut::shim
     i.surfaces->examination().examine(displacement, i.row_pressures().data(),
                                       i.gap.data(), i.row_states().data(),
                                       facet_penetrations);
-    result.deformation = i.deformation(displacement);
+    result.deformation = i.scales.deformation(displacement);
     const std::vector<PairCheck> checks = i.checks->pairs();
     const std::vector<PairResult<dim>> pairs = i.results->pairs();
     const std::vector<SurfacePair<dim>> &surface_pairs =
@@ -540,8 +540,9 @@ namespace abut::shim
                                              i.communicator),
                         round_off_of_places * checks[p].facet_size});
       // Where raising gaps has not come to its end, anything that is left.
-      visible.push_back(i.raises_end_early() ? i.least_clearance(displacement)
-                                             : scales[p].limit(useless));
+      visible.push_back(i.raises.has_ended_early()
+                            ? i.raises.least_clearance(displacement)
+                            : scales[p].limit(useless));
     }
     const std::vector<SeparatedRows> apart = i.surfaces->examination().apart(
         visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());

@@ -18,7 +18,7 @@
 #include <cstring>
 #include <limits>
 
-namespace abut
+namespace abut::shim
 {
   using dealii::ExcMessage;
   using dealii::types::global_dof_index;
@@ -41,9 +41,8 @@ namespace abut
     {
       try
       {
-        static_cast<const shim::SurfaceRows<dim> *>(user)
-            ->multipliers()
-            .project(values);
+        static_cast<const SurfaceRows<dim> *>(user)->multipliers().project(
+            values);
       }
       catch (const std::exception &)
       {
@@ -65,7 +64,7 @@ namespace abut
     /** Number that distinguishes operators: their values, but for gaps. */
     std::uint64_t signature(const solve::PointOperator &rows)
     {
-      shim::FnvHash hash;
+      FnvHash hash;
       const auto add = [&](const double value)
       {
         std::uint64_t word = 0;
@@ -85,16 +84,138 @@ namespace abut
       }
       return hash.value;
     }
+
+    /** Keep the counts of an exchange that is about to go. */
+    template <int dim> void count_messages(ContactProblem<dim> &i)
+    {
+      if (i.exchange == nullptr)
+        return;
+      const CommunicationReport sent = i.exchange->communication();
+      i.sent_before.messages += sent.messages;
+      i.sent_before.bytes += sent.bytes;
+      i.sent_before.gathered_bytes += sent.gathered_bytes;
+    }
+
+    template <int dim>
+    void find_rows(ContactProblem<dim> &i, const la::Vector &displacement)
+    {
+      i.rows_mesh = 0;
+      const auto change = i.find_points(displacement);
+      if (change == RowSource::Change::points)
+        i.set_up_rows();
+      else if (change == RowSource::Change::constants)
+        i.coefficients.renew_constants(i.source->nodes());
+      if (i.is_nitsche())
+      {
+        i.nitsche.find(i.surfaces, i.coefficients.n_rows(),
+                       i.method.nitsche_theta);
+        i.solver.reset();
+      }
+      i.rows_mesh = i.points_mesh;
+      i.find_slip_reference();
+      i.start.find(i.start_rows(), i.history);
+    }
+
+    /** Give the strategy its data of friction. Collective. */
+    template <int dim> void set_friction(ContactProblem<dim> &i)
+    {
+      i.diagonal.clear();
+      const auto points_with_friction = i.source->friction();
+      if (!points_with_friction.any)
+        return;
+      std::vector<double> traction;
+      if (i.history.knows(ABUT_HISTORY_COMMITTED, i.rows_mesh))
+      {
+        const std::vector<double> rows = i.history.pressures(
+            i.row_numbers(), i.placed_rows, ABUT_HISTORY_COMMITTED);
+        for (int row = 0; row < i.coefficients.n_rows(); ++row)
+          if (i.coefficients.is_tangent(row))
+            traction.push_back(rows[row]);
+      }
+      abut_strategy_friction friction = {};
+      friction.struct_size = sizeof(friction);
+      friction.n = static_cast<std::int32_t>(points_with_friction.first.size());
+      friction.first = points_with_friction.first.data();
+      friction.n_tangents = points_with_friction.n_tangents.data();
+      friction.coefficient = points_with_friction.coefficient.data();
+      friction.cap = points_with_friction.cap.data();
+      friction.tangent = points_with_friction.tangent.data();
+      friction.reference_traction =
+          traction.empty() ? nullptr : traction.data();
+      if (!abut_law_has_penalty(i.method.options.law))
+      {
+        friction.n_rivals =
+            static_cast<std::int32_t>(points_with_friction.rival_point.size());
+        friction.rival_point = points_with_friction.rival_point.data();
+        friction.rival_row = points_with_friction.rival_row.data();
+      }
+      i.method.set_law(friction);
+      i.check(abut_strategy_set_friction(i.strategy.get(), &friction));
+    }
+
+    /** Data of the iteration that begins, for the solver. */
+    template <int dim>
+    solve::ContactIteration iteration_of(ContactProblem<dim> &i)
+    {
+      solve::ContactIteration result;
+      result.gap = &i.gap;
+      result.start = &i.start_displacement;
+      if (i.surfaces != nullptr)
+      {
+        result.group = i.surfaces->points().row_pairs();
+        result.n_groups = i.pairs.size();
+      }
+      result.approach = [&i](const std::vector<solve::RigidMotion> &motions,
+                             const std::vector<std::uint8_t> &is_apart)
+      { i.add_approach(motions, is_apart); };
+      result.turns = i.moves() && i.method.turning_terms
+                     && !i.start.is_pressed(i.communicator);
+      result.load = std::max(i.scales.present_load, i.scales.committed_load);
+      result.linear_tolerance = i.method.options.final_linear_tolerance;
+      return result;
+    }
+
+    /** Throws if a matrix is needed. */
+    template <int dim> void check_host(const ContactProblem<dim> &i)
+    {
+      const auto need = [](const bool is_wanted, const std::string &what)
+      {
+        AssertThrow(!is_wanted,
+                    ExcMessage(what
+                               + " needs the matrix of the tangent, "
+                                 "not a HostOperator."));
+      };
+      using Linear = SolverParameters::Linear;
+      need(i.is_nitsche(), "Nitsche's method");
+      need(i.method.system == System::saddle_point,
+           "Method/System = saddle point");
+      need(i.moves(), "Contact at points that move (Method/Sliding)");
+      need(i.solver_parameters.linear == Linear::direct,
+           "Solver/Linear solver = direct");
+      need(i.solver_parameters.linear == Linear::geometric,
+           "Solver/Linear solver = geometric");
+    }
+
+    /** Build the preconditioner that was loaded, if there is one. */
+    template <int dim> void restore_preconditioner(ContactProblem<dim> &i)
+    {
+      if (i.kept_preconditioner.empty())
+        return;
+      const bool other_rows = i.kept_rows != i.rows_signature;
+      if (!dealii::Utilities::MPI::logical_or(other_rows, i.communicator))
+        i.solver->restore(i.kept_preconditioner);
+      i.kept_preconditioner.clear();
+    }
   } // namespace
 
   template <int dim>
-  void shim::ContactProblem<dim>::check(const abut_status status) const
+  void ContactProblem<dim>::check(const abut_status status) const
   {
     shim::check_everywhere(communicator, context.get(), status);
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::check_law(const abut_status status) const
+  void ContactProblem<dim>::check_law(const abut_status status) const
   {
     if (method.user_law == nullptr)
       check(status);
@@ -104,13 +225,13 @@ namespace abut
   }
 
   template <int dim>
-  double shim::ContactProblem<dim>::row_pressure(const int row) const
+  double ContactProblem<dim>::row_pressure(const int row) const
   {
     return is_started ? request.pressure[row] : start.pressure(row);
   }
 
   template <int dim>
-  std::vector<double> shim::ContactProblem<dim>::row_pressures() const
+  std::vector<double> ContactProblem<dim>::row_pressures() const
   {
     std::vector<double> result(coefficients.n_rows());
     for (int row = 0; row < coefficients.n_rows(); ++row)
@@ -119,7 +240,7 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::add_forces(la::Vector &forces) const
+  void ContactProblem<dim>::add_forces(la::Vector &forces) const
   {
     std::vector<double> force = row_pressures();
     for (int row = 0; row < coefficients.n_rows(); ++row)
@@ -128,7 +249,7 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
+  void ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
   {
     AssertThrow(!is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                           "are not those of its pressures "
@@ -136,7 +257,7 @@ namespace abut
     add_forces(forces);
   }
 
-  template <int dim> abut_progress shim::ContactProblem<dim>::progress() const
+  template <int dim> abut_progress ContactProblem<dim>::progress() const
   {
     abut_progress progress = {};
     // A strategy whose law fails is not started any more.
@@ -149,7 +270,7 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<std::uint8_t> shim::ContactProblem<dim>::row_states() const
+  std::vector<std::uint8_t> ContactProblem<dim>::row_states() const
   {
     if (is_started)
       return {request.state, request.state + coefficients.n_rows()};
@@ -157,8 +278,8 @@ namespace abut
   }
 
   template <int dim>
-  double shim::ContactProblem<dim>::law_defect(const int row,
-                                               const double gap_there) const
+  double ContactProblem<dim>::law_defect(const int row,
+                                         const double gap_there) const
   {
     if (coefficients.bilateral()[row] == 0 && !coefficients.is_tangent(row)
         && request.state[row] == ABUT_STATE_OPEN
@@ -166,14 +287,15 @@ namespace abut
       return std::min(0., gap_there);
     const auto at = diagonal.empty() ? row : diagonal[row];
     const double a = request.d_pressure[at], b = request.d_gap[at];
-    const double size = std::max(std::abs(b), std::abs(a) * stiffness[row]);
+    const double size =
+        std::max(std::abs(b), std::abs(a) * scales.stiffness[row]);
     return size > 0.
                ? (request.residual[row] + b * (gap_there - gap[row])) / size
                : 0.;
   }
 
   template <int dim>
-  const shim::RowSource &shim::ContactProblem<dim>::present_source() const
+  const RowSource &ContactProblem<dim>::present_source() const
   {
     AssertThrow(source != nullptr,
                 ExcMessage("There are no rows: call detect() first."));
@@ -181,7 +303,7 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::check_rows(const std::string &call) const
+  void ContactProblem<dim>::check_rows(const std::string &call) const
   {
     host.check_mesh(call);
     AssertThrow(has_rows, ExcMessage("Call detect() before " + call
@@ -189,23 +311,22 @@ namespace abut
                                        "reinit()."));
   }
 
-  template <int dim> void shim::ContactProblem<dim>::create_source()
+  template <int dim> void ContactProblem<dim>::create_source()
   {
     surfaces = nullptr;
     const bool has_obstacle = obstacle.lower || obstacle.upper;
     if (!pairs.empty() || (has_pairs && !has_obstacle))
     {
-      auto made = std::make_unique<shim::SurfaceRows<dim>>(
-          shim::PairHost<dim>{host.mapping(), host.dof_handler(),
-                              host.constraints(), method, search, axisymmetric,
-                              context.get(), detection},
+      auto made = std::make_unique<SurfaceRows<dim>>(
+          PairHost<dim>{host.mapping(), host.dof_handler(), host.constraints(),
+                        method, search, axisymmetric, context.get(), detection},
           pairs, exchange);
       surfaces = made.get();
       surfaces->set().foresee_motion(foreseen_motion);
       if (committed.displacement().size() > 0)
         surfaces->set().record_commit(committed.displacement());
       if (exchange != surfaces->set().exchange())
-        count_messages();
+        count_messages(*this);
       exchange = surfaces->set().exchange();
       source = std::move(made);
     }
@@ -220,30 +341,20 @@ namespace abut
               "Obstacles need a scalar field: the finite element has "
               + std::to_string(host.dof_handler().get_fe().n_components())
               + " components."));
-      const Message reason = shim::obstacle_refusal(
-          host.dof_handler().get_fe(), !obstacle.boundary_ids.empty());
+      const Message reason = obstacle_refusal(host.dof_handler().get_fe(),
+                                              !obstacle.boundary_ids.empty());
       if (!reason.empty())
         throw ObstacleError(reason);
-      source = std::make_unique<shim::NodalObstacleRows<dim>>(
+      source = std::make_unique<NodalObstacleRows<dim>>(
           host.mapping(), host.dof_handler(), host.constraints(), obstacle);
     }
     source_is_outdated = false;
     bodies.reset();
   }
 
-  template <int dim> void shim::ContactProblem<dim>::count_messages()
+  template <int dim> void ContactProblem<dim>::clear_source()
   {
-    if (exchange == nullptr)
-      return;
-    const CommunicationReport sent = exchange->communication();
-    sent_before.messages += sent.messages;
-    sent_before.bytes += sent.bytes;
-    sent_before.gathered_bytes += sent.gathered_bytes;
-  }
-
-  template <int dim> void shim::ContactProblem<dim>::clear_source()
-  {
-    count_messages();
+    count_messages(*this);
     exchange.reset();
     source.reset();
     surfaces = nullptr;
@@ -251,8 +362,9 @@ namespace abut
   }
 
   template <int dim>
-  solve::PointOperator shim::ContactProblem<dim>::make_operator(
-      abut_points *const made, shim::PairPoints<dim> *const elsewhere)
+  solve::PointOperator
+  ContactProblem<dim>::make_operator(abut_points *const made,
+                                     PairPoints<dim> *const elsewhere)
   {
     abut_points_view view = {};
     check(abut_points_get(made, &view));
@@ -277,14 +389,14 @@ namespace abut
   }
 
   template <int dim>
-  shim::RowSource::Change
-  shim::ContactProblem<dim>::find_points(const la::Vector &displacement)
+  RowSource::Change
+  ContactProblem<dim>::find_points(const la::Vector &displacement)
   {
     if (points == nullptr || points_dimension != source->dimension())
     {
       coefficients = solve::PointOperator();
       points_dimension = source->dimension();
-      points = shim::create_points(context.get(), points_dimension);
+      points = create_points(context.get(), points_dimension);
     }
     if (surfaces != nullptr && makes_points_at_commits())
     {
@@ -306,7 +418,7 @@ namespace abut
     }
   }
 
-  template <int dim> void shim::ContactProblem<dim>::set_up_rows()
+  template <int dim> void ContactProblem<dim>::set_up_rows()
   {
     coefficients = make_operator(points.get());
     n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
@@ -322,32 +434,12 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::find_rows(const la::Vector &displacement)
-  {
-    rows_mesh = 0;
-    const auto change = find_points(displacement);
-    if (change == shim::RowSource::Change::points)
-      set_up_rows();
-    else if (change == shim::RowSource::Change::constants)
-      coefficients.renew_constants(source->nodes());
-    if (is_nitsche())
-    {
-      nitsche.find(surfaces, coefficients.n_rows(), method.nitsche_theta);
-      solver.reset();
-    }
-    rows_mesh = points_mesh;
-    find_slip_reference();
-    start.find(start_rows(), history);
-  }
-
-  template <int dim>
-  void
-  shim::ContactProblem<dim>::find_rows_in_reach(const la::Vector &displacement)
+  void ContactProblem<dim>::find_rows_in_reach(const la::Vector &displacement)
   {
     for (bool is_found = false; !is_found;)
       try
       {
-        find_rows(displacement);
+        find_rows(*this, displacement);
         is_found = true;
       }
       catch (const ContactError &error)
@@ -361,7 +453,7 @@ namespace abut
       }
   }
 
-  template <int dim> void shim::ContactProblem<dim>::find_slip_reference()
+  template <int dim> void ContactProblem<dim>::find_slip_reference()
   {
     slip_reference = {};
     has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
@@ -376,7 +468,7 @@ namespace abut
   }
 
   template <int dim>
-  la::Vector shim::ContactProblem<dim>::displacement_of(
+  la::Vector ContactProblem<dim>::displacement_of(
       const std::vector<solve::RigidMotion> &motions) const
   {
     const solve::NearNullSpace &space = near_null_space();
@@ -397,7 +489,7 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::add_approach(
+  void ContactProblem<dim>::add_approach(
       const std::vector<solve::RigidMotion> &motions,
       const std::vector<std::uint8_t> &is_apart)
   {
@@ -407,80 +499,29 @@ namespace abut
     find_slip_reference();
   }
 
-  template <int dim> void shim::ContactProblem<dim>::set_friction()
-  {
-    diagonal.clear();
-    const auto points_with_friction = source->friction();
-    if (!points_with_friction.any)
-      return;
-    std::vector<double> traction;
-    if (history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
-    {
-      const std::vector<double> rows =
-          history.pressures(row_numbers(), placed_rows, ABUT_HISTORY_COMMITTED);
-      for (int row = 0; row < coefficients.n_rows(); ++row)
-        if (coefficients.is_tangent(row))
-          traction.push_back(rows[row]);
-    }
-    abut_strategy_friction friction = {};
-    friction.struct_size = sizeof(friction);
-    friction.n = static_cast<std::int32_t>(points_with_friction.first.size());
-    friction.first = points_with_friction.first.data();
-    friction.n_tangents = points_with_friction.n_tangents.data();
-    friction.coefficient = points_with_friction.coefficient.data();
-    friction.cap = points_with_friction.cap.data();
-    friction.tangent = points_with_friction.tangent.data();
-    friction.reference_traction = traction.empty() ? nullptr : traction.data();
-    if (!abut_law_has_penalty(method.options.law))
-    {
-      friction.n_rivals =
-          static_cast<std::int32_t>(points_with_friction.rival_point.size());
-      friction.rival_point = points_with_friction.rival_point.data();
-      friction.rival_row = points_with_friction.rival_row.data();
-    }
-    method.set_law(friction);
-    check(abut_strategy_set_friction(strategy.get(), &friction));
-  }
-
-  template <int dim> bool shim::ContactProblem<dim>::is_nitsche() const
+  template <int dim> bool ContactProblem<dim>::is_nitsche() const
   {
     return abut_law_needs_stress(method.options.law);
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::compute_gap(const la::Vector &displacement)
+  void ContactProblem<dim>::compute_gap(const la::Vector &displacement)
   {
     gap.resize(coefficients.n_rows());
     coefficients.gap(displacement, gap.data());
     slip_reference.subtract_from(gap);
-    add_raises(coefficients, gap);
+    raises.add_to(coefficients, gap);
     if (is_nitsche())
       nitsche.move_to(displacement);
   }
 
-  template <int dim> const double *shim::ContactProblem<dim>::law_gap()
+  template <int dim> const double *ContactProblem<dim>::law_gap()
   {
     return is_nitsche() ? nitsche.law_gap(gap) : gap.data();
   }
 
   template <int dim>
-  void
-  shim::ContactProblem<dim>::find_row_stiffness(const solve::Stiffness &matrix)
-  {
-    la::Vector compliance = solve::compliance(matrix);
-    row_stiffness = solve::row_stiffness(compliance, coefficients);
-    if (law_compliance.size() == 0)
-    {
-      if (host.reference())
-        compliance = solve::compliance(*host.reference());
-      law_compliance.swap(compliance);
-      if (moves()) // directions turn, and the law must not
-        surfaces->fields().make_isotropic(law_compliance);
-    }
-  }
-
-  template <int dim>
-  void shim::ContactProblem<dim>::begin_at(const la::Vector &displacement)
+  void ContactProblem<dim>::begin_at(const la::Vector &displacement)
   {
     is_started = false;
     was_added = false;
@@ -490,13 +531,14 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::begin(const solve::Stiffness &matrix,
-                                        const la::Vector &residual)
+  void ContactProblem<dim>::begin(const solve::Stiffness &matrix,
+                                  const la::Vector &residual)
   {
-    stiffness = solve::row_stiffness(law_compliance, coefficients);
+    std::vector<double> &stiffness = scales.stiffness;
+    stiffness = solve::row_stiffness(scales.law_compliance, coefficients);
     if (surfaces != nullptr)
       surfaces->multipliers().spread_stiffness(stiffness);
-    set_scales(matrix, residual);
+    scales.set(matrix, residual);
     method.options.reduce = reduce_over_ranks;
     method.options.user = const_cast<MPI_Comm *>(&communicator);
     const bool has_space = surfaces != nullptr && surfaces->set().has_points();
@@ -507,8 +549,8 @@ namespace abut
     if (iteration_tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
           iteration_tolerance;
-    strategy = shim::create_strategy(context.get(), options);
-    set_friction();
+    strategy = create_strategy(context.get(), options);
+    set_friction(*this);
 
     if (!is_nitsche() && surfaces != nullptr && is_penalty(*method.options.law))
       surfaces->multipliers().make_uniform(stiffness);
@@ -527,10 +569,10 @@ namespace abut
         c *= method.options.complementarity;
       start.set_state(surfaces->multipliers().first_contact(
           gap, start.pressure(), scale,
-          touching * shim::smallest_body(near_null_space(), communicator)));
+          touching * smallest_body(near_null_space(), communicator)));
     }
     if (solver != nullptr)
-      solver->begin_iteration(iteration());
+      solver->begin_iteration(iteration_of(*this));
     check_law(abut_strategy_start(
         strategy.get(), coefficients.n_rows(), coefficients.ids(),
         coefficients.weights(), stiffness.data(), coefficients.bilateral(),
@@ -545,28 +587,7 @@ namespace abut
     is_started = true;
   }
 
-  template <int dim>
-  solve::ContactIteration shim::ContactProblem<dim>::iteration()
-  {
-    solve::ContactIteration result;
-    result.gap = &gap;
-    result.start = &start_displacement;
-    if (surfaces != nullptr)
-    {
-      result.group = surfaces->points().row_pairs();
-      result.n_groups = pairs.size();
-    }
-    result.approach = [this](const std::vector<solve::RigidMotion> &motions,
-                             const std::vector<std::uint8_t> &is_apart)
-    { add_approach(motions, is_apart); };
-    result.turns =
-        moves() && method.turning_terms && !start.is_pressed(communicator);
-    result.load = std::max(present_load, committed_load);
-    result.linear_tolerance = method.options.final_linear_tolerance;
-    return result;
-  }
-
-  template <int dim> void shim::ContactProblem<dim>::record_end()
+  template <int dim> void ContactProblem<dim>::record_end()
   {
     undetermined.clear();
     followed_motions.clear();
@@ -574,13 +595,13 @@ namespace abut
       undetermined = solver->end_iteration(request);
   }
 
-  template <int dim> bool shim::ContactProblem<dim>::widen_search()
+  template <int dim> bool ContactProblem<dim>::widen_search()
   {
     // Parts of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;
     if (surfaces == nullptr)
       return false;
-    const double size = shim::smallest_body(near_null_space(), communicator);
+    const double size = smallest_body(near_null_space(), communicator);
     const double next =
         foreseen_motion > 0. ? growth * foreseen_motion : first * size;
     if (next > 1.001 * last * size || size == 0.)
@@ -592,7 +613,7 @@ namespace abut
   }
 
   template <int dim>
-  const solve::NearNullSpace &shim::ContactProblem<dim>::near_null_space() const
+  const solve::NearNullSpace &ContactProblem<dim>::near_null_space() const
   {
     if (!bodies)
     {
@@ -600,34 +621,15 @@ namespace abut
       SolverParameters parameters = solver_parameters;
       if (is_nitsche() || !solver_has_matrix)
         parameters.linear = SolverParameters::Linear::iterative;
-      bodies = shim::make_solver_space(host.mapping(), host.dof_handler(),
-                                       host.constraints(), surfaces != nullptr,
-                                       parameters, host.vertex_origins());
+      bodies = make_solver_space(host.mapping(), host.dof_handler(),
+                                 host.constraints(), surfaces != nullptr,
+                                 parameters, host.vertex_origins());
     }
     return *bodies;
   }
 
-  template <int dim> void shim::ContactProblem<dim>::check_host() const
-  {
-    const auto need = [](const bool is_wanted, const std::string &what)
-    {
-      AssertThrow(!is_wanted, ExcMessage(what
-                                         + " needs the matrix of the tangent, "
-                                           "not a HostOperator."));
-    };
-    using Linear = SolverParameters::Linear;
-    need(is_nitsche(), "Nitsche's method");
-    need(method.system == System::saddle_point, "Method/System = saddle point");
-    need(moves(), "Contact at points that move (Method/Sliding)");
-    need(solver_parameters.linear == Linear::direct,
-         "Solver/Linear solver = direct");
-    need(solver_parameters.linear == Linear::geometric,
-         "Solver/Linear solver = geometric");
-  }
-
   template <int dim>
-  void
-  shim::ContactProblem<dim>::prepare_solver(const solve::Stiffness &of_host)
+  void ContactProblem<dim>::prepare_solver(const solve::Stiffness &of_host)
   {
     if (of_host.has_matrix() != solver_has_matrix)
     {
@@ -636,12 +638,12 @@ namespace abut
     }
     solver_has_matrix = of_host.has_matrix();
     if (!solver_has_matrix)
-      check_host();
+      check_host(*this);
     const bool is_renewed = solver != nullptr && constant_matrix;
     if (is_renewed && !has_new_matrix)
       return;
     has_new_matrix = false;
-    find_row_stiffness(of_host);
+    scales.find_compliance(of_host);
     const solve::Stiffness matrix =
         solver_has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
     if (solver == nullptr)
@@ -658,30 +660,20 @@ namespace abut
       solver->set_bodies(of_host);
     if (is_renewed)
     {
-      solver->renew(matrix, coefficients, row_stiffness);
+      solver->renew(matrix, coefficients, scales.row_stiffness);
       return;
     }
-    solver->reinit(matrix, coefficients, row_stiffness);
-    restore_preconditioner();
+    solver->reinit(matrix, coefficients, scales.row_stiffness);
+    restore_preconditioner(*this);
   }
 
-  template <int dim> void shim::ContactProblem<dim>::restore_preconditioner()
-  {
-    if (kept_preconditioner.empty())
-      return;
-    const bool other_rows = kept_rows != rows_signature;
-    if (!dealii::Utilities::MPI::logical_or(other_rows, communicator))
-      solver->restore(kept_preconditioner);
-    kept_preconditioner.clear();
-  }
-
-  template <int dim> void shim::ContactProblem<dim>::next()
+  template <int dim> void ContactProblem<dim>::next()
   {
     check_law(abut_strategy_next(strategy.get(), law_gap(), &request));
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::push_inside(la::Vector &displacement)
+  void ContactProblem<dim>::push_inside(la::Vector &displacement)
   {
     // On the path of the barrier p g = mu, as far as the start knows p.
     double largest = 0.;
@@ -691,13 +683,14 @@ namespace abut
     const bool warm = largest > 0.;
     const double barrier = warm ? std::min(1e-4, method.options.barrier_start)
                                 : method.options.barrier_start;
-    std::vector<double> margin(coefficients.n_rows(), barrier * length_scale());
+    std::vector<double> margin(coefficients.n_rows(),
+                               barrier * scales.length_scale());
     if (warm)
       for (int i = 0; i < coefficients.n_rows(); ++i)
         margin[i] *= largest / std::max(start.pressure(i), 1e-2 * largest);
     source->push_inside(gap, margin, displacement);
   }
 
-  template struct shim::ContactProblem<2>;
-  template struct shim::ContactProblem<3>;
-} // namespace abut
+  template struct ContactProblem<2>;
+  template struct ContactProblem<3>;
+} // namespace abut::shim

@@ -5,7 +5,8 @@
 #include "committed_state.h"
 #include "contact_history.h"
 #include "contact_host.h"
-#include "gap_raise.h"
+#include "contact_scales.h"
+#include "gap_raises.h"
 #include "handles.h"
 #include "moving_rows.h"
 #include "nitsche_rows.h"
@@ -65,12 +66,9 @@ namespace abut::shim
       return host.vector(call, what, vector);
     }
     void create_source();
-    /** Keep the counts of an exchange that is about to go. */
-    void count_messages();
     /** Forget the mesh. */
     void clear_source();
-    void find_rows(const la::Vector &displacement);
-    /** The same, with a larger reach where bodies without supports have no row
+    /** Find rows, with a larger reach where bodies without supports have no row
      * otherwise. */
     void find_rows_in_reach(const la::Vector &displacement);
     /** Let the source find points. Collective. */
@@ -103,27 +101,10 @@ namespace abut::shim
     /** A motion on the present mesh. */
     la::Vector
     displacement_of(const std::vector<solve::RigidMotion> &motions) const;
-    /** Give the strategy its data of friction. Collective. */
-    void set_friction();
     /** Whether the law needs the normal stress of the bodies. */
     bool is_nitsche() const;
     /** The gap as the law wants it. */
     const double *law_gap();
-    void set_scales(const solve::Stiffness &matrix, const la::Vector &residual);
-    /** Length scale of the present iteration. Collective. */
-    double length_scale() const;
-    /** The same, or 0 where nothing has moved and all gaps are 0. Collective.
-     */
-    double measured_length() const;
-    double unmeasured_length() const;
-    /** See ContactAssembler::length_scale(). Collective. */
-    double length_scale(const la::Vector &displacement) const;
-    /** Find the local stiffness of the rows in a new matrix, which is that of
-     * the law only if it is the first one: a law must not change from one
-     * linearisation to the next. Collective. */
-    void find_row_stiffness(const solve::Stiffness &matrix);
-    /** Length by pressure: inverse mean of the rows' stiffness. */
-    double softness() const;
     /** Make what has been reached the start of the next iteration. */
     void start_from_present();
     void begin_at(const la::Vector &displacement);
@@ -143,65 +124,23 @@ namespace abut::shim
     /** Take the rows to this displacement, if they are the same there.
      * Collective. */
     void follow(const la::Vector &displacement);
-    /** Another set of points, by the operator of its rows. */
-    struct RowsElsewhere
-    {
-      Handle<abut_points> points;
-      solve::PointOperator rows;
-      RowSource::SlipReference slip_reference;
-    };
-    /** The rows at this displacement, while the present ones stay. Collective.
-     */
-    RowsElsewhere rows_at(const la::Vector &displacement);
     /** Find the change of the forces of the rows' pressures because rows move.
      * Collective. */
     void find_geometry();
-    /** How gaps change because directions and partners do. Collective. */
-    void find_substitution();
     /** Gaps where the iteration has come to. Collective. */
     void update_gap(const la::Vector &displacement);
-    /** Add the part of the coordinates that stands for the round-off of gaps
-     * and strains at points that move. Not collective. */
-    void add_round_off_of_positions(la::Vector &displacement) const;
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
-    /** See ContactAssembler::raise_gaps(). Collective. */
-    bool raise_gaps(const la::Vector &displacement);
-    /** See ContactAssembler::limit_raises(). Collective. */
-    bool limit_raises(la::Vector &displacement);
-    /** Raise and lower gaps by what rows have pressed since; false: no row is
-     * to be changed. Collective. */
-    bool change_raises(const la::Vector &displacement);
-    /** Open the raised rows that still press, if that may be due to the forces
-     * of raised rows only, once; false: it is not. Collective. */
-    bool open_raised_rows(const la::Vector &displacement);
-    /** Sum of pressures in pairs that touched nowhere at first. Collective. */
-    double force_without_touch() const;
-    /** Whether that has stopped before all such rows were open. */
-    bool raises_end_early() const;
-    /** From how far on surfaces are apart for that, length. Collective. */
-    double least_clearance(const la::Vector &displacement) const;
-    /** Whether a row of a normal has a pressure. */
-    bool presses(int row) const;
-    /** Add to the gaps [rows] of some operator what they are raised by. */
-    void add_raises(const solve::PointOperator &rows,
-                    std::vector<double> &gaps) const;
-    /** Data of the iteration that begins, for the solver. */
-    solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
     void record_end();
     /** Let the search reach farther, as far as bodies without supports may
      * have to move. Returns whether it does. Collective. */
     bool widen_search();
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
-    /** Throws if a matrix is needed. */
-    void check_host() const;
     /** Made once for each mesh. Collective. */
     const solve::NearNullSpace &near_null_space() const;
     void prepare_solver(const solve::Stiffness &matrix);
-    /** Build the preconditioner that was loaded, if there is one. */
-    void restore_preconditioner();
     void push_inside(la::Vector &displacement);
     void next();
     /** Pressures and states reached, or those to start from. */
@@ -218,9 +157,6 @@ namespace abut::shim
     }
     abut_progress progress() const;
     std::vector<std::uint8_t> row_states() const;
-    /** Length that depths are compared with: how far bodies are deformed, or
-     * the membrane is moved. Collective. */
-    double deformation(const la::Vector &displacement) const;
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
     const MPI_Comm communicator;
@@ -232,7 +168,6 @@ namespace abut::shim
     SearchParameters search;
     SolverParameters solver_parameters;
     bool constant_matrix = false;
-    double given_length = 0.; ///< 0: none
 
     /** Before all that is made with it, and so destroyed after it. */
     Handle<abut_context> context = create_context();
@@ -271,20 +206,10 @@ namespace abut::shim
     bool has_friction = false; ///< some pair has, on all ranks
     CommittedState<dim> committed;
     RowSource::SlipReference slip_reference;
-    GapRaises raises;
+    GapRaises<dim> raises{*this};
+    ContactScales<dim> scales{*this};
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
-    /** Compliance of each unknown of this rank, in the matrix that penalties
-     * are multiples of; empty: none yet. */
-    la::Vector law_compliance;
-    /** [rows] pressure per length, > 0: of each row in the last matrix taken,
-     * for solvers; and in that of law_compliance, as the law has it, by patches
-     * of surface. */
-    std::vector<double> row_stiffness, stiffness;
-    double smallest_residual = 0.;
-    /** Sums of magnitudes at nodes: of the present solve, and the largest of
-     * those that ended in a committed state. */
-    double present_load = 0., committed_load = 0.;
     /** Rigid motions that the last iteration has left undetermined. */
     std::vector<solve::FreeMotion> undetermined;
     /** Rigid motions of bodies where points were last taken to. */

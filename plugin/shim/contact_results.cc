@@ -191,7 +191,7 @@ namespace abut::shim
         {
           // Points that stick must not slip, and the forces of points that slip
           // are exact.
-          const double s = i.stiffness[row];
+          const double s = i.scales.stiffness[row];
           const bool sticks =
               is_tangent && i.request.state[row] == ABUT_STATE_CLOSED;
           const double residual = is_tie || sticks ? g
@@ -205,7 +205,8 @@ namespace abut::shim
         sums[2] += weight * std::abs(p);
         largest[0] = std::max(largest[0], is_tie ? std::abs(g) : -g);
         if (penalty > 0. && !is_tie)
-          largest[1] = std::max(largest[1], p / (penalty * i.stiffness[row]));
+          largest[1] =
+              std::max(largest[1], p / (penalty * i.scales.stiffness[row]));
       }
 
       const ContactProblem<dim> &i;

@@ -89,7 +89,8 @@ namespace abut
         i.host.vector("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
-    i.committed_load = std::max(i.committed_load, i.present_load);
+    i.scales.committed_load =
+        std::max(i.scales.committed_load, i.scales.present_load);
     if (i.surfaces != nullptr && i.has_rows)
       i.elements.commit(i.surfaces->points().contact_elements(),
                         i.communicator);

@@ -10,7 +10,7 @@
 
 #include "app/scenes/loaded_scene.h"
 #include "inf_sup.h"
-#include "shim/contact_implementation.h"
+#include "shim/contact_problem.h"
 
 #include <iostream>
 
