@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Checks that hosts ask for.
+// Checks of the problem and of its answer, but for examine().
 #include "contact_problem.h"
 
 #include "solve/unsupported_bodies.h"
@@ -35,9 +35,9 @@ namespace abut::shim
         if (i.surfaces == nullptr)
           return;
         solve::UnsupportedBodies unsupported;
-        unsupported.reinit(stiffness, i.coefficients, i.near_null_space());
-        const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-        auto free = unsupported.free_motions(i.coefficients, all);
+        unsupported.reinit(stiffness, i.rows.coefficients, i.near_null_space());
+        const std::vector<std::uint8_t> all(i.rows.coefficients.n_rows(), 1);
+        auto free = unsupported.free_motions(i.rows.coefficients, all);
         if (given_residual)
         {
           const la::Vector &residual =
@@ -47,7 +47,7 @@ namespace abut::shim
                                                    * residual.l1_norm());
         }
         if (!free.empty())
-          unsupported.fail(free, solve::n_resisting(i.coefficients, all),
+          unsupported.fail(free, solve::n_resisting(i.rows.coefficients, all),
                            "contact rows, open or not", "or tie it");
       }
 
@@ -138,8 +138,9 @@ namespace abut::shim
 
       double imbalance(const la::VectorView &residual) const override
       {
-        const double tolerance = i.method.options.final_linear_tolerance;
-        if (!i.is_started || (i.is_nitsche() && i.method.nitsche_theta != 0.))
+        const double tolerance = i.input.method.options.final_linear_tolerance;
+        if (!i.is_started
+            || (i.is_nitsche() && i.input.method.nitsche_theta != 0.))
           return 0.;
         return imbalance(residual, i.scales.smallest_residual / tolerance);
       }

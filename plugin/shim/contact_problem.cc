@@ -88,30 +88,31 @@ namespace abut::shim
     /** Keep the counts of an exchange that is about to go. */
     template <int dim> void count_messages(ContactProblem<dim> &i)
     {
-      if (i.exchange == nullptr)
+      if (i.surface_search.exchange == nullptr)
         return;
-      const CommunicationReport sent = i.exchange->communication();
-      i.sent_before.messages += sent.messages;
-      i.sent_before.bytes += sent.bytes;
-      i.sent_before.gathered_bytes += sent.gathered_bytes;
+      const CommunicationReport sent =
+          i.surface_search.exchange->communication();
+      i.surface_search.sent_before.messages += sent.messages;
+      i.surface_search.sent_before.bytes += sent.bytes;
+      i.surface_search.sent_before.gathered_bytes += sent.gathered_bytes;
     }
 
     template <int dim>
     void find_rows(ContactProblem<dim> &i, const la::Vector &displacement)
     {
-      i.rows_mesh = 0;
+      i.rows.mesh = 0;
       const auto change = i.find_points(displacement);
       if (change == RowSource::Change::points)
         i.set_up_rows();
       else if (change == RowSource::Change::constants)
-        i.coefficients.renew_constants(i.source->nodes());
+        i.rows.coefficients.renew_constants(i.source->nodes());
       if (i.is_nitsche())
       {
-        i.nitsche.find(i.surfaces, i.coefficients.n_rows(),
-                       i.method.nitsche_theta);
-        i.solver.reset();
+        i.nitsche.find(i.surfaces, i.rows.coefficients.n_rows(),
+                       i.input.method.nitsche_theta);
+        i.system.solver.reset();
       }
-      i.rows_mesh = i.points_mesh;
+      i.rows.mesh = i.rows.points_mesh;
       i.find_slip_reference();
       i.start.find(i.start_rows(), i.history);
     }
@@ -119,17 +120,17 @@ namespace abut::shim
     /** Give the strategy its data of friction. Collective. */
     template <int dim> void set_friction(ContactProblem<dim> &i)
     {
-      i.diagonal.clear();
+      i.rows.diagonal.clear();
       const auto points_with_friction = i.source->friction();
       if (!points_with_friction.any)
         return;
       std::vector<double> traction;
-      if (i.history.knows(ABUT_HISTORY_COMMITTED, i.rows_mesh))
+      if (i.history.knows(ABUT_HISTORY_COMMITTED, i.rows.mesh))
       {
         const std::vector<double> rows = i.history.pressures(
-            i.row_numbers(), i.placed_rows, ABUT_HISTORY_COMMITTED);
-        for (int row = 0; row < i.coefficients.n_rows(); ++row)
-          if (i.coefficients.is_tangent(row))
+            i.row_numbers(), i.rows.placed, ABUT_HISTORY_COMMITTED);
+        for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+          if (i.rows.coefficients.is_tangent(row))
             traction.push_back(rows[row]);
       }
       abut_strategy_friction friction = {};
@@ -142,14 +143,14 @@ namespace abut::shim
       friction.tangent = points_with_friction.tangent.data();
       friction.reference_traction =
           traction.empty() ? nullptr : traction.data();
-      if (!abut_law_has_penalty(i.method.options.law))
+      if (!abut_law_has_penalty(i.input.method.options.law))
       {
         friction.n_rivals =
             static_cast<std::int32_t>(points_with_friction.rival_point.size());
         friction.rival_point = points_with_friction.rival_point.data();
         friction.rival_row = points_with_friction.rival_row.data();
       }
-      i.method.set_law(friction);
+      i.input.method.set_law(friction);
       i.check(abut_strategy_set_friction(i.strategy.get(), &friction));
     }
 
@@ -158,20 +159,20 @@ namespace abut::shim
     solve::ContactIteration iteration_of(ContactProblem<dim> &i)
     {
       solve::ContactIteration result;
-      result.gap = &i.gap;
+      result.gap = &i.rows.gap;
       result.start = &i.start_displacement;
       if (i.surfaces != nullptr)
       {
         result.group = i.surfaces->points().row_pairs();
-        result.n_groups = i.pairs.size();
+        result.n_groups = i.input.pairs.size();
       }
       result.approach = [&i](const std::vector<solve::RigidMotion> &motions,
                              const std::vector<std::uint8_t> &is_apart)
       { i.add_approach(motions, is_apart); };
-      result.turns = i.moves() && i.method.turning_terms
+      result.turns = i.moves() && i.input.method.turning_terms
                      && !i.start.is_pressed(i.communicator);
       result.load = std::max(i.scales.present_load, i.scales.committed_load);
-      result.linear_tolerance = i.method.options.final_linear_tolerance;
+      result.linear_tolerance = i.input.method.options.final_linear_tolerance;
       return result;
     }
 
@@ -187,24 +188,24 @@ namespace abut::shim
       };
       using Linear = SolverParameters::Linear;
       need(i.is_nitsche(), "Nitsche's method");
-      need(i.method.system == System::saddle_point,
+      need(i.input.method.system == System::saddle_point,
            "Method/System = saddle point");
       need(i.moves(), "Contact at points that move (Method/Sliding)");
-      need(i.solver_parameters.linear == Linear::direct,
+      need(i.input.solver.linear == Linear::direct,
            "Solver/Linear solver = direct");
-      need(i.solver_parameters.linear == Linear::geometric,
+      need(i.input.solver.linear == Linear::geometric,
            "Solver/Linear solver = geometric");
     }
 
     /** Build the preconditioner that was loaded, if there is one. */
     template <int dim> void restore_preconditioner(ContactProblem<dim> &i)
     {
-      if (i.kept_preconditioner.empty())
+      if (i.system.kept_preconditioner.empty())
         return;
-      const bool other_rows = i.kept_rows != i.rows_signature;
+      const bool other_rows = i.system.kept_rows != i.rows.signature;
       if (!dealii::Utilities::MPI::logical_or(other_rows, i.communicator))
-        i.solver->restore(i.kept_preconditioner);
-      i.kept_preconditioner.clear();
+        i.system.solver->restore(i.system.kept_preconditioner);
+      i.system.kept_preconditioner.clear();
     }
   } // namespace
 
@@ -217,7 +218,7 @@ namespace abut::shim
   template <int dim>
   void ContactProblem<dim>::check_law(const abut_status status) const
   {
-    if (method.user_law == nullptr)
+    if (input.method.user_law == nullptr)
       check(status);
     else
       shim::check_everywhere<SolverFailure>(communicator, context.get(),
@@ -233,8 +234,8 @@ namespace abut::shim
   template <int dim>
   std::vector<double> ContactProblem<dim>::row_pressures() const
   {
-    std::vector<double> result(coefficients.n_rows());
-    for (int row = 0; row < coefficients.n_rows(); ++row)
+    std::vector<double> result(rows.coefficients.n_rows());
+    for (int row = 0; row < rows.coefficients.n_rows(); ++row)
       result[row] = row_pressure(row);
     return result;
   }
@@ -243,9 +244,9 @@ namespace abut::shim
   void ContactProblem<dim>::add_forces(la::Vector &forces) const
   {
     std::vector<double> force = row_pressures();
-    for (int row = 0; row < coefficients.n_rows(); ++row)
-      force[row] *= coefficients.weights()[row];
-    coefficients.add_transposed(force.data(), forces);
+    for (int row = 0; row < rows.coefficients.n_rows(); ++row)
+      force[row] *= rows.coefficients.weights()[row];
+    rows.coefficients.add_transposed(force.data(), forces);
   }
 
   template <int dim>
@@ -273,25 +274,26 @@ namespace abut::shim
   std::vector<std::uint8_t> ContactProblem<dim>::row_states() const
   {
     if (is_started)
-      return {request.state, request.state + coefficients.n_rows()};
-    return start.states(coefficients);
+      return {request.state, request.state + rows.coefficients.n_rows()};
+    return start.states(rows.coefficients);
   }
 
   template <int dim>
   double ContactProblem<dim>::law_defect(const int row,
                                          const double gap_there) const
   {
-    if (coefficients.bilateral()[row] == 0 && !coefficients.is_tangent(row)
+    if (rows.coefficients.bilateral()[row] == 0
+        && !rows.coefficients.is_tangent(row)
         && request.state[row] == ABUT_STATE_OPEN
-        && !abut_law_is_interior(method.options.law))
+        && !abut_law_is_interior(input.method.options.law))
       return std::min(0., gap_there);
-    const auto at = diagonal.empty() ? row : diagonal[row];
+    const auto at = rows.diagonal.empty() ? row : rows.diagonal[row];
     const double a = request.d_pressure[at], b = request.d_gap[at];
     const double size =
         std::max(std::abs(b), std::abs(a) * scales.stiffness[row]);
-    return size > 0.
-               ? (request.residual[row] + b * (gap_there - gap[row])) / size
-               : 0.;
+    return size > 0. ? (request.residual[row] + b * (gap_there - rows.gap[row]))
+                           / size
+                     : 0.;
   }
 
   template <int dim>
@@ -306,28 +308,30 @@ namespace abut::shim
   void ContactProblem<dim>::check_rows(const std::string &call) const
   {
     host.check_mesh(call);
-    AssertThrow(has_rows, ExcMessage("Call detect() before " + call
-                                     + ": there are no rows since the last "
-                                       "reinit()."));
+    AssertThrow(rows.are_found,
+                ExcMessage("Call detect() before " + call
+                           + ": there are no rows since the last "
+                             "reinit()."));
   }
 
   template <int dim> void ContactProblem<dim>::create_source()
   {
     surfaces = nullptr;
-    const bool has_obstacle = obstacle.lower || obstacle.upper;
-    if (!pairs.empty() || (has_pairs && !has_obstacle))
+    const bool has_obstacle = input.obstacle.lower || input.obstacle.upper;
+    if (!input.pairs.empty() || (input.has_pairs && !has_obstacle))
     {
       auto made = std::make_unique<SurfaceRows<dim>>(
           PairHost<dim>{host.mapping(), host.dof_handler(), host.constraints(),
-                        method, search, axisymmetric, context.get(), detection},
-          pairs, exchange);
+                        input.method, input.search, input.axisymmetric,
+                        context.get(), surface_search.detection},
+          input.pairs, surface_search.exchange);
       surfaces = made.get();
-      surfaces->set().foresee_motion(foreseen_motion);
+      surfaces->set().foresee_motion(surface_search.foreseen_motion);
       if (committed.displacement().size() > 0)
         surfaces->set().record_commit(committed.displacement());
-      if (exchange != surfaces->set().exchange())
+      if (surface_search.exchange != surfaces->set().exchange())
         count_messages(*this);
-      exchange = surfaces->set().exchange();
+      surface_search.exchange = surfaces->set().exchange();
       source = std::move(made);
     }
     else
@@ -341,21 +345,22 @@ namespace abut::shim
               "Obstacles need a scalar field: the finite element has "
               + std::to_string(host.dof_handler().get_fe().n_components())
               + " components."));
-      const Message reason = obstacle_refusal(host.dof_handler().get_fe(),
-                                              !obstacle.boundary_ids.empty());
+      const Message reason = obstacle_refusal(
+          host.dof_handler().get_fe(), !input.obstacle.boundary_ids.empty());
       if (!reason.empty())
         throw ObstacleError(reason);
       source = std::make_unique<NodalObstacleRows<dim>>(
-          host.mapping(), host.dof_handler(), host.constraints(), obstacle);
+          host.mapping(), host.dof_handler(), host.constraints(),
+          input.obstacle);
     }
     source_is_outdated = false;
-    bodies.reset();
+    system.bodies.reset();
   }
 
   template <int dim> void ContactProblem<dim>::clear_source()
   {
     count_messages(*this);
-    exchange.reset();
+    surface_search.exchange.reset();
     source.reset();
     surfaces = nullptr;
     source_is_outdated = true;
@@ -392,11 +397,11 @@ namespace abut::shim
   RowSource::Change
   ContactProblem<dim>::find_points(const la::Vector &displacement)
   {
-    if (points == nullptr || points_dimension != source->dimension())
+    if (rows.points == nullptr || rows.dimension != source->dimension())
     {
-      coefficients = solve::PointOperator();
-      points_dimension = source->dimension();
-      points = create_points(context.get(), points_dimension);
+      rows.coefficients = solve::PointOperator();
+      rows.dimension = source->dimension();
+      rows.points = create_points(context.get(), rows.dimension);
     }
     if (surfaces != nullptr && makes_points_at_commits())
     {
@@ -408,29 +413,30 @@ namespace abut::shim
       committed.give_poses(surfaces->set().obstacles());
     try
     {
-      return source->find(displacement, points.get());
+      return source->find(displacement, rows.points.get());
     }
     catch (...)
     {
       // The remaining points are not the ones that these were made of.
-      coefficients = solve::PointOperator();
+      rows.coefficients = solve::PointOperator();
       throw;
     }
   }
 
   template <int dim> void ContactProblem<dim>::set_up_rows()
   {
-    coefficients = make_operator(points.get());
-    n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
-                      communicator);
+    rows.coefficients = make_operator(rows.points.get());
+    rows.n_rows =
+        MPI::sum(static_cast<global_dof_index>(rows.coefficients.n_rows()),
+                 communicator);
     // A solver is kept as long as it would be made of the same rows: in the
     // reference configuration they are the same in most load steps.
-    const std::uint64_t before = rows_signature;
-    rows_signature = signature(coefficients);
-    if (MPI::logical_or(before != rows_signature, communicator))
-      solver.reset();
-    points_mesh = source->mesh_signature();
-    placed_rows = source->placed_rows();
+    const std::uint64_t before = rows.signature;
+    rows.signature = signature(rows.coefficients);
+    if (MPI::logical_or(before != rows.signature, communicator))
+      system.solver.reset();
+    rows.points_mesh = source->mesh_signature();
+    rows.placed = source->placed_rows();
   }
 
   template <int dim>
@@ -455,16 +461,17 @@ namespace abut::shim
 
   template <int dim> void ContactProblem<dim>::find_slip_reference()
   {
-    slip_reference = {};
-    has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
-    if (!has_friction)
+    rows.slip_reference = {};
+    rows.has_friction =
+        MPI::logical_or(rows.coefficients.has_tangents(), communicator);
+    if (!rows.has_friction)
       return;
     committed.check("Slips with friction are measured from");
     committed.give_poses(surfaces->set().obstacles());
     surfaces->slip().set_approach(
-        committed.approach(pairs.size(), [&](const auto &motions)
+        committed.approach(input.pairs.size(), [&](const auto &motions)
                            { return displacement_of(motions); }));
-    slip_reference = source->slip_reference(committed.displacement());
+    rows.slip_reference = source->slip_reference(committed.displacement());
   }
 
   template <int dim>
@@ -493,7 +500,7 @@ namespace abut::shim
       const std::vector<solve::RigidMotion> &motions,
       const std::vector<std::uint8_t> &is_apart)
   {
-    if (!has_friction)
+    if (!rows.has_friction)
       return;
     committed.add_approach(motions, is_apart);
     find_slip_reference();
@@ -501,30 +508,30 @@ namespace abut::shim
 
   template <int dim> bool ContactProblem<dim>::is_nitsche() const
   {
-    return abut_law_needs_stress(method.options.law);
+    return abut_law_needs_stress(input.method.options.law);
   }
 
   template <int dim>
   void ContactProblem<dim>::compute_gap(const la::Vector &displacement)
   {
-    gap.resize(coefficients.n_rows());
-    coefficients.gap(displacement, gap.data());
-    slip_reference.subtract_from(gap);
-    raises.add_to(coefficients, gap);
+    rows.gap.resize(rows.coefficients.n_rows());
+    rows.coefficients.gap(displacement, rows.gap.data());
+    rows.slip_reference.subtract_from(rows.gap);
+    raises.add_to(rows.coefficients, rows.gap);
     if (is_nitsche())
       nitsche.move_to(displacement);
   }
 
   template <int dim> const double *ContactProblem<dim>::law_gap()
   {
-    return is_nitsche() ? nitsche.law_gap(gap) : gap.data();
+    return is_nitsche() ? nitsche.law_gap(rows.gap) : rows.gap.data();
   }
 
   template <int dim>
   void ContactProblem<dim>::begin_at(const la::Vector &displacement)
   {
     is_started = false;
-    was_added = false;
+    system.was_added = false;
     start_displacement = displacement;
     compute_gap(displacement);
     find_geometry();
@@ -535,64 +542,67 @@ namespace abut::shim
                                   const la::Vector &residual)
   {
     std::vector<double> &stiffness = scales.stiffness;
-    stiffness = solve::row_stiffness(scales.law_compliance, coefficients);
+    stiffness = solve::row_stiffness(scales.law_compliance, rows.coefficients);
     if (surfaces != nullptr)
       surfaces->multipliers().spread_stiffness(stiffness);
     scales.set(matrix, residual);
-    method.options.reduce = reduce_over_ranks;
-    method.options.user = const_cast<MPI_Comm *>(&communicator);
+    input.method.options.reduce = reduce_over_ranks;
+    input.method.options.user = const_cast<MPI_Comm *>(&communicator);
     const bool has_space = surfaces != nullptr && surfaces->set().has_points();
-    method.options.project = has_space ? project_on_nodes<dim> : nullptr;
-    method.options.project_user = surfaces;
-    abut_strategy_options options = method.options;
+    input.method.options.project = has_space ? project_on_nodes<dim> : nullptr;
+    input.method.options.project_user = surfaces;
+    abut_strategy_options options = input.method.options;
     go_on_with_penalty(options);
-    if (iteration_tolerance > 0.)
+    if (system.tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
-          iteration_tolerance;
+          system.tolerance;
     strategy = create_strategy(context.get(), options);
     set_friction(*this);
 
-    if (!is_nitsche() && surfaces != nullptr && is_penalty(*method.options.law))
+    if (!is_nitsche() && surfaces != nullptr
+        && is_penalty(*input.method.options.law))
       surfaces->multipliers().make_uniform(stiffness);
     if (surfaces != nullptr)
       surfaces->multipliers().copy_to_tangents(stiffness);
     if (is_nitsche())
     {
-      method.options.penalty = abut_strategy_first_penalty(&method.options);
-      nitsche.set_penalty(method.options.penalty, stiffness);
+      input.method.options.penalty =
+          abut_strategy_first_penalty(&input.method.options);
+      nitsche.set_penalty(input.method.options.penalty, stiffness);
     }
     if (surfaces != nullptr && !start.is_restarted()
-        && !abut_law_is_interior(method.options.law))
+        && !abut_law_is_interior(input.method.options.law))
     {
       std::vector<double> scale(stiffness);
       for (double &c : scale)
-        c *= method.options.complementarity;
+        c *= input.method.options.complementarity;
       start.set_state(surfaces->multipliers().first_contact(
-          gap, start.pressure(), scale,
+          rows.gap, start.pressure(), scale,
           touching * smallest_body(near_null_space(), communicator)));
     }
-    if (solver != nullptr)
-      solver->begin_iteration(iteration_of(*this));
+    if (system.solver != nullptr)
+      system.solver->begin_iteration(iteration_of(*this));
     check_law(abut_strategy_start(
-        strategy.get(), coefficients.n_rows(), coefficients.ids(),
-        coefficients.weights(), stiffness.data(), coefficients.bilateral(),
-        law_gap(), start.pressure().empty() ? nullptr : start.pressure().data(),
+        strategy.get(), rows.coefficients.n_rows(), rows.coefficients.ids(),
+        rows.coefficients.weights(), stiffness.data(),
+        rows.coefficients.bilateral(), law_gap(),
+        start.pressure().empty() ? nullptr : start.pressure().data(),
         start.state().empty() ? nullptr : start.state().data()));
     next();
     const solve::RowBlocks blocks(request);
     for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
       for (int r = 0, k = blocks.size(block); r < k; ++r)
-        diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
+        rows.diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
     start.give_field(la::Vector()); // is in the history now
     is_started = true;
   }
 
   template <int dim> void ContactProblem<dim>::record_end()
   {
-    undetermined.clear();
-    followed_motions.clear();
-    if (request.action == ABUT_ACTION_STOP && solver != nullptr)
-      undetermined = solver->end_iteration(request);
+    system.undetermined.clear();
+    system.followed_motions.clear();
+    if (request.action == ABUT_ACTION_STOP && system.solver != nullptr)
+      system.undetermined = system.solver->end_iteration(request);
   }
 
   template <int dim> bool ContactProblem<dim>::widen_search()
@@ -602,11 +612,12 @@ namespace abut::shim
     if (surfaces == nullptr)
       return false;
     const double size = smallest_body(near_null_space(), communicator);
-    const double next =
-        foreseen_motion > 0. ? growth * foreseen_motion : first * size;
+    const double next = surface_search.foreseen_motion > 0.
+                            ? growth * surface_search.foreseen_motion
+                            : first * size;
     if (next > 1.001 * last * size || size == 0.)
       return false;
-    foreseen_motion = next;
+    surface_search.foreseen_motion = next;
     surfaces->renew_points();
     surfaces->set().foresee_motion(next);
     return true;
@@ -615,55 +626,56 @@ namespace abut::shim
   template <int dim>
   const solve::NearNullSpace &ContactProblem<dim>::near_null_space() const
   {
-    if (!bodies)
+    if (!system.bodies)
     {
       // Nitsche's method and hosts have their own multigrid.
-      SolverParameters parameters = solver_parameters;
-      if (is_nitsche() || !solver_has_matrix)
+      SolverParameters parameters = input.solver;
+      if (is_nitsche() || !system.has_matrix)
         parameters.linear = SolverParameters::Linear::iterative;
-      bodies = make_solver_space(host.mapping(), host.dof_handler(),
-                                 host.constraints(), surfaces != nullptr,
-                                 parameters, host.vertex_origins());
+      system.bodies = make_solver_space(host.mapping(), host.dof_handler(),
+                                        host.constraints(), surfaces != nullptr,
+                                        parameters, host.vertex_origins());
     }
-    return *bodies;
+    return *system.bodies;
   }
 
   template <int dim>
   void ContactProblem<dim>::prepare_solver(const solve::Stiffness &of_host)
   {
-    if (of_host.has_matrix() != solver_has_matrix)
+    if (of_host.has_matrix() != system.has_matrix)
     {
-      solver.reset();
-      bodies.reset();
+      system.solver.reset();
+      system.bodies.reset();
     }
-    solver_has_matrix = of_host.has_matrix();
-    if (!solver_has_matrix)
+    system.has_matrix = of_host.has_matrix();
+    if (!system.has_matrix)
       check_host(*this);
-    const bool is_renewed = solver != nullptr && constant_matrix;
-    if (is_renewed && !has_new_matrix)
+    const bool is_renewed = system.solver != nullptr && input.constant_matrix;
+    if (is_renewed && !system.has_new_matrix)
       return;
-    has_new_matrix = false;
+    system.has_new_matrix = false;
     scales.find_compliance(of_host);
     const solve::Stiffness matrix =
-        solver_has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
-    if (solver == nullptr)
+        system.has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
+    if (system.solver == nullptr)
     {
       if (is_nitsche())
-        solver = std::make_unique<solve::NitscheSolver>(solver_parameters,
-                                                        nitsche.terms());
+        system.solver = std::make_unique<solve::NitscheSolver>(input.solver,
+                                                               nitsche.terms());
       else
-        solver = solve::make_row_solver(method.system, solver_parameters,
-                                        coefficients, solver_has_matrix);
-      solver->set_near_null_space(near_null_space());
+        system.solver =
+            solve::make_row_solver(input.method.system, input.solver,
+                                   rows.coefficients, system.has_matrix);
+      system.solver->set_near_null_space(near_null_space());
     }
     if (moves())
-      solver->set_bodies(of_host);
+      system.solver->set_bodies(of_host);
     if (is_renewed)
     {
-      solver->renew(matrix, coefficients, scales.row_stiffness);
+      system.solver->renew(matrix, rows.coefficients, scales.row_stiffness);
       return;
     }
-    solver->reinit(matrix, coefficients, scales.row_stiffness);
+    system.solver->reinit(matrix, rows.coefficients, scales.row_stiffness);
     restore_preconditioner(*this);
   }
 
@@ -681,14 +693,15 @@ namespace abut::shim
       largest = std::max(largest, p);
     largest = MPI::max(largest, communicator);
     const bool warm = largest > 0.;
-    const double barrier = warm ? std::min(1e-4, method.options.barrier_start)
-                                : method.options.barrier_start;
-    std::vector<double> margin(coefficients.n_rows(),
+    const double barrier =
+        warm ? std::min(1e-4, input.method.options.barrier_start)
+             : input.method.options.barrier_start;
+    std::vector<double> margin(rows.coefficients.n_rows(),
                                barrier * scales.length_scale());
     if (warm)
-      for (int i = 0; i < coefficients.n_rows(); ++i)
+      for (int i = 0; i < rows.coefficients.n_rows(); ++i)
         margin[i] *= largest / std::max(start.pressure(i), 1e-2 * largest);
-    source->push_inside(gap, margin, displacement);
+    source->push_inside(rows.gap, margin, displacement);
   }
 
   template struct ContactProblem<2>;

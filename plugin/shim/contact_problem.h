@@ -39,6 +39,72 @@ namespace abut::shim
   examine(ContactProblem<dim> &problem, const la::VectorView &displacement,
           const la::VectorView &residual, bool allow_large_strain);
 
+  /** Input of a host. */
+  template <int dim> struct ContactInput
+  {
+    Obstacle<dim> obstacle;
+    std::vector<ContactPair<dim>> pairs;
+    bool has_pairs = false; ///< they were given, and may be empty
+    bool axisymmetric = false;
+    MethodParameters method;
+    SearchParameters search;
+    SolverParameters solver;
+    bool constant_matrix = false;
+  };
+
+  /** Surfaces of pairs, and what it took to find which may touch. */
+  template <int dim> struct SurfaceSearch
+  {
+    /** The facets of pairs on this mesh, once they are found. */
+    std::shared_ptr<SurfaceExchange<dim>> exchange;
+    CommunicationReport sent_before; ///< on earlier meshes
+    DetectionReport detection;
+    ContactElements elements;
+    /** How far rigid motions are foreseen to go, for searches. */
+    double foreseen_motion = 0.;
+  };
+
+  /** Rows of the last detect(), or where points have moved to. */
+  struct PresentRows
+  {
+    bool are_found = false; ///< since reinit(), by detect()
+    Handle<abut_points> points;
+    int dimension = 0;             ///< unknowns of the points' nodes
+    std::uint64_t points_mesh = 0; ///< signature of the points' mesh
+    std::uint64_t mesh = 0;        ///< signature of the rows' mesh; 0: no rows
+    std::uint64_t signature = 0;   ///< of values, but for gaps
+    solve::PointOperator coefficients; ///< B, by component of the points
+    dealii::types::global_dof_index n_rows = 0; ///< on all ranks
+    std::vector<PlacedRow> placed;
+    std::vector<double> gap;   ///< [rows] at the current displacement
+    bool has_friction = false; ///< some pair has, on all ranks
+    RowSource::SlipReference slip_reference;
+    /** [rows] place of a row's own derivatives in those of the request. */
+    std::vector<std::int64_t> diagonal;
+  };
+
+  /** Linear systems with rows. */
+  struct RowSystem
+  {
+    /** Null until the first solve with the present rows. */
+    std::unique_ptr<solve::RowSolver> solver;
+    bool has_matrix = true;        ///< or it is of a host without one
+    bool has_new_matrix = false;   ///< since the last solve
+    double tolerance = 0.;         ///< of the iteration; 0: the method's
+    bool was_added = false;        ///< by add(): the host solves
+    solve::LocalElimination local; ///< of rows that are added to a matrix
+    mutable std::optional<solve::NearNullSpace> bodies; ///< none: not made
+    /** State that a preconditioner to be built again was built for, with the
+     * signature of its rows; empty: none. */
+    std::vector<solve::PreconditionerState> kept_preconditioner;
+    std::uint64_t kept_rows = 0;
+    /** Rigid motions that the last iteration has left undetermined. */
+    std::vector<solve::FreeMotion> undetermined;
+    /** Rigid motions of bodies where points were last taken to. */
+    std::vector<BodyMotion> followed_motions;
+    LinearReport report; ///< since reinit()
+  };
+
   /** The inside of a ContactAssembler: rows, start and strategy of one solve.
    * Where rows come from is the business of a row source. */
   template <int dim> struct ContactProblem
@@ -47,7 +113,7 @@ namespace abut::shim
         : communicator(communicator), host(communicator)
     {
       // Options without a law are those of lagrange.
-      method.options.law = abut_law_find("lagrange");
+      input.method.options.law = abut_law_find("lagrange");
     }
 
     void check(const abut_status status) const;
@@ -113,7 +179,7 @@ namespace abut::shim
     /** Whether a commit() determines where the next points are made. */
     bool makes_points_at_commits() const
     {
-      return kinematics_info(method.kinematics).points
+      return kinematics_info(input.method.kinematics).points
              == ABUT_CONFIGURATION_COMMITTED;
     }
     /** Pressures and states by the numbers of the rows. */
@@ -160,79 +226,32 @@ namespace abut::shim
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
     const MPI_Comm communicator;
-    Obstacle<dim> obstacle;
-    std::vector<ContactPair<dim>> pairs;
-    bool has_pairs = false; ///< they were given, and may be empty
-    bool axisymmetric = false;
-    MethodParameters method;
-    SearchParameters search;
-    SolverParameters solver_parameters;
-    bool constant_matrix = false;
-
+    ContactInput<dim> input;
     /** Before all that is made with it, and so destroyed after it. */
     Handle<abut_context> context = create_context();
-
     ContactHost<dim> host;
+
     std::unique_ptr<RowSource> source;
     /** The same object if it makes rows of pairs, else null. */
     SurfaceRows<dim> *surfaces = nullptr;
-    /** The facets of pairs on this mesh, once they are found. */
-    std::shared_ptr<SurfaceExchange<dim>> exchange;
-    CommunicationReport sent_before; ///< on earlier meshes
-    DetectionReport detection;
-    ContactElements elements;
     bool source_is_outdated = true;
     bool has_new_gaps = false; ///< of pairs that are otherwise the same
-    mutable std::optional<solve::NearNullSpace> bodies;
-    std::uint64_t points_mesh = 0; ///< signature of the points' mesh
-    bool has_rows = false;         ///< since reinit(), by detect()
-
-    Handle<abut_points> points; ///< of the last detect()
-    int points_dimension = 0;   ///< unknowns of their nodes
-    Handle<abut_strategy> strategy;
-    solve::PointOperator coefficients; ///< B, by component of the points
-    dealii::types::global_dof_index n_rows = 0;
-
+    SurfaceSearch<dim> surface_search;
+    PresentRows rows;
     NitscheRows<dim> nitsche{context.get()};
-
-    ContactHistory history{context.get(), communicator};
-    StartValues start;
-    std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
-    std::vector<PlacedRow> placed_rows; ///< of the rows
-    ContactHistory::Penalty penalty;    ///< of this iteration
-    la::Vector start_displacement;
     MovingRows moving;
-    std::vector<double> gap;   ///< [rows] at the current displacement
-    bool has_friction = false; ///< some pair has, on all ranks
-    CommittedState<dim> committed;
-    RowSource::SlipReference slip_reference;
     GapRaises<dim> raises{*this};
     ContactScales<dim> scales{*this};
-    /** [rows] place of a row's own derivatives in those of the request. */
-    std::vector<std::int64_t> diagonal;
-    /** Rigid motions that the last iteration has left undetermined. */
-    std::vector<solve::FreeMotion> undetermined;
-    /** Rigid motions of bodies where points were last taken to. */
-    std::vector<BodyMotion> followed_motions;
-    /** How far rigid motions are foreseen to go, for searches. */
-    double foreseen_motion = 0.;
-    double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
-    bool has_new_matrix = false;     ///< since the last solve
+    RowSystem system;
 
-    solve::LocalElimination local; ///< of rows that are added to a matrix
-    /** State that a preconditioner to be built again was built for, with the
-     * signature of its rows; empty: none. */
-    std::vector<solve::PreconditionerState> kept_preconditioner;
-    std::uint64_t kept_rows = 0;
-
-    /** Null until the first solve with the present rows. */
-    std::unique_ptr<solve::RowSolver> solver;
-    bool solver_has_matrix = true;    ///< or is one for hosts without
-    std::uint64_t rows_signature = 0; ///< of the rows of the last detect()
+    ContactHistory history{context.get(), communicator};
+    ContactHistory::Penalty penalty; ///< of this iteration
+    CommittedState<dim> committed;
+    StartValues start;
+    la::Vector start_displacement;
+    Handle<abut_strategy> strategy;
     bool is_started = false;
-    bool was_added = false; ///< by add(): the host solves
     abut_request request = {};
-    LinearReport report;
 
     const std::unique_ptr<ContactResults<dim>> results = make_results(*this);
     const std::unique_ptr<ContactChecks<dim>> checks = make_checks(*this);

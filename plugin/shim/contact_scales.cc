@@ -29,17 +29,17 @@ namespace abut::shim
     la::Vector internal(residual);
     i.host.reference_or(matrix).vmult(internal, i.start_displacement);
     i.host.constraints().set_zero(internal);
-    smallest_residual = i.method.options.final_linear_tolerance
+    smallest_residual = i.input.method.options.final_linear_tolerance
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
     double weight = 0.;
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
-      weight += i.coefficients.weights()[row];
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+      weight += i.rows.coefficients.weights()[row];
     weight = MPI::sum(weight, i.communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
     // The stiffness of a rotated body does not measure its displacement.
     present_load = i.moves() ? residual.l1_norm() : load;
-    abut_strategy_options &options = i.method.options;
+    abut_strategy_options &options = i.input.method.options;
     options.pressure_scale =
         load > least_scale && weight > 0. ? load / weight : 1.;
     options.length_scale = length_scale();
@@ -63,10 +63,10 @@ namespace abut::shim
   template <int dim> double ContactScales<dim>::softness() const
   {
     double sums[2] = {0., 0.};
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
     {
-      sums[0] += i.coefficients.weights()[row];
-      sums[1] += i.coefficients.weights()[row] * stiffness[row];
+      sums[0] += i.rows.coefficients.weights()[row];
+      sums[1] += i.rows.coefficients.weights()[row] * stiffness[row];
     }
     MPI::sum(sums, i.communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
@@ -105,11 +105,12 @@ namespace abut::shim
     // The harmonic mean of the gaps: parts of an obstacle that are out of
     // reach do not count.
     double sums[2] = {0., 0.};
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
-      if (i.gap[row] != 0.)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+      if (i.rows.gap[row] != 0.)
       {
-        sums[0] += i.coefficients.weights()[row];
-        sums[1] += i.coefficients.weights()[row] / std::abs(i.gap[row]);
+        sums[0] += i.rows.coefficients.weights()[row];
+        sums[1] +=
+            i.rows.coefficients.weights()[row] / std::abs(i.rows.gap[row]);
       }
     MPI::sum(sums, i.communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
@@ -128,7 +129,7 @@ namespace abut::shim
   void ContactScales<dim>::find_compliance(const solve::Stiffness &matrix)
   {
     la::Vector compliance = solve::compliance(matrix);
-    row_stiffness = solve::row_stiffness(compliance, i.coefficients);
+    row_stiffness = solve::row_stiffness(compliance, i.rows.coefficients);
     if (law_compliance.size() == 0)
     {
       if (i.host.reference())

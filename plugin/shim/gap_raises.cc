@@ -41,7 +41,7 @@ namespace abut::shim
         || is_final_)
       return false;
     bool any = !of_.empty();
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
       any = any || presses(row);
     return MPI::logical_or(any, i.communicator)
            && (change(displacement) || open(displacement));
@@ -57,8 +57,8 @@ namespace abut::shim
         i.surfaces->points(),
         i.surfaces->points().displacements_in_reach(displacement), true);
     const std::vector<int> pair_of = i.surfaces->points().row_pairs();
-    std::vector<int> touches(i.pairs.size(), 0);
-    const int n = i.coefficients.n_rows();
+    std::vector<int> touches(i.input.pairs.size(), 0);
+    const int n = i.rows.coefficients.n_rows();
     for (int row = 0; row < n; ++row)
       if (clearance[row] <= least)
         touches[pair_of[row]] = 1;
@@ -70,13 +70,13 @@ namespace abut::shim
     std::vector<std::uint8_t> pressing(n);
     for (int row = 0; row < n; ++row)
     {
-      const auto it = of_.find(i.coefficients.ids()[row]);
+      const auto it = of_.find(i.rows.coefficients.ids()[row]);
       amounts[row] = it == of_.end() ? abut_gap_raise() : it->second;
       apart[row] = touches[pair_of[row]] == 0 ? least : visible;
       pressing[row] = presses(row);
     }
     const abut_raised_rows rows = {sizeof(rows),       n,
-                                   clearance.data(),   i.gap.data(),
+                                   clearance.data(),   i.rows.gap.data(),
                                    i.request.pressure, pressing.data(),
                                    apart.data(),       least,
                                    n_ >= free_raises};
@@ -87,7 +87,7 @@ namespace abut::shim
       return false;
     for (int row = 0; row < n; ++row)
       if (amounts[row].value > 0. || amounts[row].before > 0.)
-        of_[i.coefficients.ids()[row]] = amounts[row];
+        of_[i.rows.coefficients.ids()[row]] = amounts[row];
     if (n_++ == 0)
     {
       touches_ = touches;
@@ -101,7 +101,7 @@ namespace abut::shim
     const ContactProblem<dim> &i = problem_;
     const std::vector<int> pair_of = i.surfaces->points().row_pairs();
     double sum = 0.;
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
       if (presses(row) && touches_[pair_of[row]] == 0)
         sum += i.request.pressure[row];
     return MPI::sum(sum, i.communicator);
@@ -119,10 +119,10 @@ namespace abut::shim
     values_ = i.row_values();
     before_opening_ = displacement;
     const std::vector<int> pair_of = i.surfaces->points().row_pairs();
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
       if (presses(row) && touches_[pair_of[row]] == 0)
       {
-        abut_gap_raise &amount = of_[i.coefficients.ids()[row]];
+        abut_gap_raise &amount = of_[i.rows.coefficients.ids()[row]];
         amount = {amount.value + i.surfaces->set().facet_size(), amount.value,
                   0., i.request.pressure[row]};
       }
@@ -157,7 +157,7 @@ namespace abut::shim
   template <int dim> bool GapRaises<dim>::presses(const int row) const
   {
     const ContactProblem<dim> &i = problem_;
-    return !i.coefficients.is_tangent(row)
+    return !i.rows.coefficients.is_tangent(row)
            && i.request.state[row] != ABUT_STATE_OPEN
            && i.request.pressure[row] > 0.;
   }

@@ -24,8 +24,8 @@ namespace abut
                           const la::Matrix &stiffness)
     {
       const auto &i = *contact.implementation;
-      return solve::inf_sup_constant(stiffness, i.coefficients,
-                                     i.solver_parameters, i.near_null_space())
+      return solve::inf_sup_constant(stiffness, i.rows.coefficients,
+                                     i.input.solver, i.near_null_space())
           .constant;
     }
   };
