@@ -94,7 +94,7 @@ namespace abut::shim
   {
     const double facet =
         i.surfaces == nullptr ? 0. : i.surfaces->set().facet_size();
-    return facet > 0. ? facet : 1.; // any: there is no row, or none has a i.gap
+    return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
   }
 
   template <int dim> double ContactScales<dim>::measured_length() const
