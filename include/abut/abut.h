@@ -19,6 +19,7 @@
 #include <abut/failure.h>
 #include <abut/friction.h>
 #include <abut/friction_points.h>
+#include <abut/gap_raise.h>
 #include <abut/history.h>
 #include <abut/law.h>
 #include <abut/limits.h>

@@ -92,7 +92,7 @@ namespace abut
   {
     const auto &i = *implementation;
     i.check_rows("add_to_sparsity()");
-    const solve::PointOperator &rows = i.coefficients;
+    const solve::PointOperator &rows = i.rows.coefficients;
     std::vector<global_dof_index> columns, all;
     for (int row = 0; row < rows.n_rows(); ++row)
     {
@@ -124,14 +124,15 @@ namespace abut
         i.host.mutable_vector("add()", "residual", given_residual);
     const solve::Stiffness stiffness =
         i.host.stiffness("add()", Tangent(matrix));
-    AssertThrow(abut_law_has_penalty(i.method.options.law)
-                    && !abut_law_needs_stress(i.method.options.law),
-                ExcMessage(std::string("The law '") + i.method.options.law->name
+    AssertThrow(abut_law_has_penalty(i.input.method.options.law)
+                    && !abut_law_needs_stress(i.input.method.options.law),
+                ExcMessage(std::string("The law '")
+                           + i.input.method.options.law->name
                            + "' cannot be added to a matrix row by row: use "
                              "ContactAssembler::solve()."));
     if (!i.is_started)
     {
-      i.find_row_stiffness(stiffness);
+      i.scales.find_compliance(stiffness);
       i.begin(stiffness, residual);
     }
     if (i.moving.has_geometry())
@@ -141,14 +142,15 @@ namespace abut
            i.source->geometric_lines(i.start.pressure().data()))
         matrix.add(line.row, line.column, line.value);
     }
-    const solve::PointOperator &rows = i.coefficients;
-    i.local.reinit(i.request, rows.n_rows(), rows.weights(), i.communicator);
+    const solve::PointOperator &rows = i.rows.coefficients;
+    i.system.local.reinit(i.request, rows.n_rows(), rows.weights(),
+                          i.communicator);
     Addition addition(rows, matrix, residual);
-    for_each_point(i.local, rows.n_rows(),
+    for_each_point(i.system.local, rows.n_rows(),
                    [&](const CondensedPoint &point) { addition.add(point); });
     matrix.compress();
     residual.compress(dealii::VectorOperation::add);
-    i.was_added = true;
+    i.system.was_added = true;
   }
 
   template void

@@ -80,21 +80,21 @@ namespace abut
   void ContactAssembler<dim>::set_parameters(const MethodParameters &method,
                                              const SolverParameters &solver)
   {
-    implementation->method = method;
+    implementation->input.method = method;
     if (method.options.law == nullptr)
-      implementation->method.options.law = abut_law_find("lagrange");
-    implementation->solver_parameters = solver;
-    implementation->solver.reset();
+      implementation->input.method.options.law = abut_law_find("lagrange");
+    implementation->input.solver = solver;
+    implementation->system.solver.reset();
     // How rows of pairs are made is a matter of the method, too.
-    if (!implementation->pairs.empty())
+    if (!implementation->input.pairs.empty())
       implementation->source_is_outdated = true;
   }
 
   template <int dim>
   void ContactAssembler<dim>::set_obstacle(const Obstacle<dim> &obstacle)
   {
-    implementation->obstacle = obstacle;
-    implementation->pairs.clear();
+    implementation->input.obstacle = obstacle;
+    implementation->input.pairs.clear();
     implementation->source_is_outdated = true;
   }
 
@@ -102,8 +102,8 @@ namespace abut
   void
   ContactAssembler<dim>::set_search_parameters(const SearchParameters &search)
   {
-    implementation->search = search;
-    if (!implementation->pairs.empty())
+    implementation->input.search = search;
+    if (!implementation->input.pairs.empty())
       implementation->source_is_outdated = true;
   }
 
@@ -113,18 +113,18 @@ namespace abut
   {
     auto &i = *implementation;
     if (i.surfaces != nullptr && !i.source_is_outdated
-        && differ_in_gaps(i.pairs, pairs))
+        && differ_in_gaps(i.input.pairs, pairs))
       i.has_new_gaps = true;
     else
       i.source_is_outdated = true;
-    i.pairs = pairs;
-    i.has_pairs = true;
+    i.input.pairs = pairs;
+    i.input.has_pairs = true;
   }
 
   template <int dim>
   void ContactAssembler<dim>::set_axisymmetric(const bool axisymmetric)
   {
-    implementation->axisymmetric = axisymmetric;
+    implementation->input.axisymmetric = axisymmetric;
     implementation->source_is_outdated = true;
   }
 
@@ -145,7 +145,7 @@ namespace abut
   template <int dim>
   void ContactAssembler<dim>::assume_constant_matrix(const bool constant)
   {
-    implementation->constant_matrix = constant;
+    implementation->input.constant_matrix = constant;
   }
 
   template <int dim>
@@ -170,22 +170,22 @@ namespace abut
       throw ContactError(reason);
     i.record_present();
     i.history.leave_ranks();
-    i.elements.forget();
+    i.surface_search.elements.forget();
     i.start.forget_history();
-    i.rows_mesh = 0;
-    i.has_rows = false;
+    i.rows.mesh = 0;
+    i.rows.are_found = false;
     i.host.reinit(mapping, dof_handler, constraints);
     i.clear_source();
-    i.solver.reset();
-    i.kept_preconditioner.clear();
+    i.system.solver.reset();
+    i.system.kept_preconditioner.clear();
     // Assigned again, they would keep the ranks that unknowns had before, where
     // the number of unknowns is the same.
     i.abandon_iteration();
     i.start_displacement = la::Vector();
     i.committed.leave_mesh();
-    i.slip_reference = {};
-    i.law_compliance = la::Vector();
-    i.report = LinearReport();
+    i.rows.slip_reference = {};
+    i.scales.law_compliance = la::Vector();
+    i.system.report = LinearReport();
   }
 
   template <int dim>
@@ -201,22 +201,22 @@ namespace abut
       i.start.use_history();
     if (i.source_is_outdated)
     {
-      if (i.source != nullptr && i.rows_mesh != 0)
+      if (i.source != nullptr && i.rows.mesh != 0)
         i.start.keep_field(*i.source, i.row_pressures());
       i.create_source();
     }
     else if (i.has_new_gaps)
-      i.surfaces->set().set_gaps(i.pairs);
+      i.surfaces->set().set_gaps(i.input.pairs);
     i.has_new_gaps = false;
-    i.has_rows = false;
-    i.raises = shim::GapRaises();
+    i.rows.are_found = false;
+    i.raises.clear();
     i.committed.check_approach(displacement, [&](const auto &motions)
                                { return i.displacement_of(motions); });
     i.find_rows_in_reach(displacement);
-    i.has_rows = true;
+    i.rows.are_found = true;
     i.start.set_state({});
     i.start.set_restarted(false);
-    i.iteration_tolerance = 0.;
+    i.system.tolerance = 0.;
     i.begin_at(displacement);
   }
 
@@ -229,7 +229,7 @@ namespace abut
         i.given("search_farther()", "displacement", given_displacement);
     const auto n_rows = [&]
     {
-      return dealii::Utilities::MPI::sum(double(i.coefficients.n_rows()),
+      return dealii::Utilities::MPI::sum(double(i.rows.coefficients.n_rows()),
                                          i.communicator);
     };
     const double before = n_rows();
@@ -261,8 +261,8 @@ namespace abut
       i.record_present();
       i.start_from_present();
     }
-    i.iteration_tolerance = linear_tolerance;
-    i.has_new_matrix = true;
+    i.system.tolerance = linear_tolerance;
+    i.system.has_new_matrix = true;
     i.begin_at(displacement);
   }
 
@@ -274,6 +274,35 @@ namespace abut
         i.given("follow()", "displacement", given_displacement);
     if (i.moves())
       i.follow(displacement);
+  }
+
+  template <int dim>
+  bool
+  ContactAssembler<dim>::raise_gaps(const la::VectorView &given_displacement)
+  {
+    auto &i = *implementation;
+    const la::Vector &displacement =
+        i.given("raise_gaps()", "displacement", given_displacement);
+    if (!i.raises.raise(displacement))
+      return false;
+    i.compute_gap(displacement);
+    return true;
+  }
+
+  template <int dim>
+  bool ContactAssembler<dim>::limit_raises(
+      const la::MutableVectorView &given_displacement)
+  {
+    auto &i = *implementation;
+    i.check_rows("limit_raises()");
+    la::Vector &displacement = i.host.mutable_vector(
+        "limit_raises()", "displacement", given_displacement);
+    shim::RowValues values;
+    if (!i.raises.limit(displacement, values))
+      return false;
+    i.move_rows(displacement, values);
+    i.is_started = false;
+    return true;
   }
 
   template <int dim> bool ContactAssembler<dim>::points_move() const
@@ -294,11 +323,11 @@ namespace abut
         i.host.mutable_vector("relax()", "displacement", given_displacement);
     AssertThrow(!i.is_started, ExcMessage("Call relax() between detect() and "
                                           "the first solve()."));
-    if (abut_law_needs_open_start(i.method.options.law))
+    if (abut_law_needs_open_start(i.input.method.options.law))
       i.push_inside(displacement);
     else
       i.start.set_state(i.source->relax(i.host.stiffness("relax()", tangent),
-                                        residual, i.gap, n_sweeps,
+                                        residual, i.rows.gap, n_sweeps,
                                         displacement));
     i.start_displacement = displacement;
     i.compute_gap(displacement);
@@ -336,15 +365,15 @@ namespace abut
     {
       report.n_systems += i.request.action == ABUT_ACTION_SOLVE;
       tolerance = i.request.linear_tolerance;
-      report +=
-          i.solver->solve(forces, i.request, i.smallest_residual, increment);
+      report += i.system.solver->solve(forces, i.request,
+                                       i.scales.smallest_residual, increment);
       i.next();
     }
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
       increment *= i.request.step_length;
     i.moving.apply_substitution(increment);
     report.tolerance = tolerance;
-    i.report += report;
+    i.system.report += report;
     return report;
   }
 
@@ -360,15 +389,15 @@ namespace abut
       return false;
     i.moving.move_to(displacement);
     std::vector<double> before;
-    if (i.was_added)
-      before.swap(i.gap);
+    if (i.system.was_added)
+      before.swap(i.rows.gap);
     i.update_gap(displacement);
-    if (i.was_added)
+    if (i.system.was_added)
     {
-      for (int row = 0; row < i.coefficients.n_rows(); ++row)
-        i.request.gap_change[row] = i.gap[row] - before[row];
-      i.local.recover(i.request);
-      i.was_added = false;
+      for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+        i.request.gap_change[row] = i.rows.gap[row] - before[row];
+      i.system.local.recover(i.request);
+      i.system.was_added = false;
       i.next();
     }
     i.next();
@@ -421,14 +450,15 @@ namespace abut
       return implementation->evaluate_moved(displacement, forces);
     forces = 0.;
     i.add_forces_of_law(forces);
-    std::vector<double> gap(i.coefficients.n_rows());
-    i.coefficients.gap(displacement, gap.data());
-    i.slip_reference.subtract_from(gap);
+    std::vector<double> gap(i.rows.coefficients.n_rows());
+    i.rows.coefficients.gap(displacement, gap.data());
+    i.rows.slip_reference.subtract_from(gap);
     double sum = 0.;
-    for (int row = 0; row < i.coefficients.n_rows(); ++row)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
     {
       const double defect = i.law_defect(row, gap[row]);
-      sum += i.coefficients.weight(row) * i.stiffness[row] * defect * defect;
+      sum += i.rows.coefficients.weight(row) * i.scales.stiffness[row] * defect
+             * defect;
     }
     return std::sqrt(dealii::Utilities::MPI::sum(sum, i.communicator));
   }
@@ -439,8 +469,8 @@ namespace abut
     auto &i = *implementation;
     i.host.check_mesh("set_reference_stiffness()");
     i.host.set_reference("set_reference_stiffness()", tangent);
-    i.law_compliance = la::Vector();
-    i.has_new_matrix = true;
+    i.scales.law_compliance = la::Vector();
+    i.system.has_new_matrix = true;
   }
 
   template <int dim>
@@ -448,7 +478,7 @@ namespace abut
   {
     AssertThrow(length >= 0. && std::isfinite(length),
                 ExcMessage("A length scale must be positive, or 0."));
-    implementation->given_length = length;
+    implementation->scales.given_length = length;
   }
 
   template <int dim>
@@ -458,13 +488,14 @@ namespace abut
     const auto &i = *implementation;
     const la::Vector &displacement =
         i.given("length_scale()", "displacement", given_displacement);
-    const double length = i.length_scale(displacement);
+    const double length = i.scales.length_scale(displacement);
     // Obstacles may come to bodies that rest.
-    const bool may_come = i.surfaces != nullptr
-                          && (i.surfaces->set().has_steps()
-                              || std::any_of(i.pairs.begin(), i.pairs.end(),
-                                             [](const ContactPair<dim> &pair)
-                                             { return pair.may_be_apart; }));
+    const bool may_come =
+        i.surfaces != nullptr
+        && (i.surfaces->set().has_steps()
+            || std::any_of(i.input.pairs.begin(), i.input.pairs.end(),
+                           [](const ContactPair<dim> &pair)
+                           { return pair.may_be_apart; }));
     return length == 0. && may_come ? i.surfaces->set().facet_size() : length;
   }
 
@@ -474,8 +505,8 @@ namespace abut
     IterationReport result;
     result.progress = i.progress();
     result.reason = i.reason();
-    result.failure = abut_reason_failure(result.reason, i.method.options.law,
-                                         &result.progress);
+    result.failure = abut_reason_failure(
+        result.reason, i.input.method.options.law, &result.progress);
     const std::string seen = abut_context_message(i.context.get());
     const bool failed = result.reason != ABUT_REASON_NONE
                         && result.reason != ABUT_REASON_CONVERGED;

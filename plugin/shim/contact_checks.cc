@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Checks that hosts ask for.
+// Checks of the problem and of its answer, but for examine().
 #include "contact_problem.h"
 
 #include "solve/unsupported_bodies.h"
@@ -35,9 +35,9 @@ namespace abut::shim
         if (i.surfaces == nullptr)
           return;
         solve::UnsupportedBodies unsupported;
-        unsupported.reinit(stiffness, i.coefficients, i.near_null_space());
-        const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-        auto free = unsupported.free_motions(i.coefficients, all);
+        unsupported.reinit(stiffness, i.rows.coefficients, i.near_null_space());
+        const std::vector<std::uint8_t> all(i.rows.coefficients.n_rows(), 1);
+        auto free = unsupported.free_motions(i.rows.coefficients, all);
         if (given_residual)
         {
           const la::Vector &residual =
@@ -47,7 +47,7 @@ namespace abut::shim
                                                    * residual.l1_norm());
         }
         if (!free.empty())
-          unsupported.fail(free, solve::n_resisting(i.coefficients, all),
+          unsupported.fail(free, solve::n_resisting(i.rows.coefficients, all),
                            "contact rows, open or not", "or tie it");
       }
 
@@ -78,7 +78,8 @@ namespace abut::shim
         depth.reinit(i.host.dof_handler().get_triangulation().n_active_cells());
         // Peaks that are more than this part of what bodies are deformed by.
         constexpr double visible_peak = 0.1;
-        const double least_peak = visible_peak * i.deformation(displacement);
+        const double least_peak =
+            visible_peak * i.scales.deformation(displacement);
         double largest = 0.;
         for (const FacetPenetration &found :
              i.source->facet_penetrations(displacement, i.row_states().data()))
@@ -137,10 +138,11 @@ namespace abut::shim
 
       double imbalance(const la::VectorView &residual) const override
       {
-        const double tolerance = i.method.options.final_linear_tolerance;
-        if (!i.is_started || (i.is_nitsche() && i.method.nitsche_theta != 0.))
+        const double tolerance = i.input.method.options.final_linear_tolerance;
+        if (!i.is_started
+            || (i.is_nitsche() && i.input.method.nitsche_theta != 0.))
           return 0.;
-        return imbalance(residual, i.smallest_residual / tolerance);
+        return imbalance(residual, i.scales.smallest_residual / tolerance);
       }
 
       ForceSize
@@ -158,7 +160,7 @@ namespace abut::shim
         la::Vector free(i.host.vector("size_of_forces()", "displacement",
                                       given_displacement));
         if (i.moves())
-          i.add_round_off_of_positions(free);
+          add_round_off_of_positions(free);
         i.host.constraints().set_zero(free);
         const la::LocalRows rows = la::local_rows(stiffness.matrix());
         const std::vector<double> u = la::gather(stiffness.matrix(), free);
@@ -176,6 +178,20 @@ namespace abut::shim
       }
 
     private:
+      /** Add the part of the coordinates that stands for the round-off of gaps
+       * and strains at points that move. */
+      void add_round_off_of_positions(la::Vector &displacement) const
+      {
+        // Round-off of displacements counts a hundred times in forces; that of
+        // positions cancels but for a facet, a tenth of a body.
+        constexpr double part = 1e-3;
+        const auto &point = i.near_null_space().point;
+        for (std::size_t k = 0; k < point.size(); ++k)
+          la::data(displacement)[k] =
+              std::abs(la::data(displacement)[k])
+              + part * dealii::Tensor<1, 3>(point[k]).norm();
+      }
+
       ContactProblem<dim> &i;
     };
   } // namespace

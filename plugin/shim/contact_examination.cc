@@ -437,11 +437,11 @@ namespace abut::shim
     template <int dim> double soft_on_purpose(const ContactProblem<dim> &i)
     {
       // A user's own law is as soft as it is meant to be.
-      if (i.method.user_law != nullptr)
+      if (i.input.method.user_law != nullptr)
         return INFINITY;
-      return abut_law_has_penalty(i.method.options.law)
-                 ? i.method.options.allowed_penetration
-                       * i.method.options.length_scale
+      return abut_law_has_penalty(i.input.method.options.law)
+                 ? i.input.method.options.allowed_penetration
+                       * i.input.method.options.length_scale
                  : 0.;
     }
 
@@ -453,7 +453,7 @@ namespace abut::shim
       const Deepest deepest(
           i.source->facet_penetrations(displacement, i.row_states().data()), 0,
           i.communicator);
-      result.deformation = i.deformation(displacement);
+      result.deformation = i.scales.deformation(displacement);
       result.missed_depth = deepest.missed;
       double cell = 0.;
       for (const auto &some : i.host.dof_handler().active_cell_iterators())
@@ -484,8 +484,9 @@ namespace abut::shim
   examine(ContactProblem<dim> &i, const la::VectorView &given_displacement,
           const la::VectorView &residual, const bool allow_large_strain)
   {
-    const bool can_touch = !i.pairs.empty() || i.obstacle.lower != nullptr
-                           || i.obstacle.upper != nullptr;
+    const bool can_touch = !i.input.pairs.empty()
+                           || i.input.obstacle.lower != nullptr
+                           || i.input.obstacle.upper != nullptr;
     if (can_touch)
       i.check_rows("examine()");
     else
@@ -505,13 +506,13 @@ namespace abut::shim
       return result;
     }
     const Strains strain = strains(i.host.mapping(), i.host.dof_handler(),
-                                   displacement, i.axisymmetric);
+                                   displacement, i.input.axisymmetric);
     result.strain = strain.largest;
     result.mean_strain = strain.mean;
     judge_strain(result, allow_large_strain, findings);
     if (!can_touch)
       return result;
-    for (const solve::FreeMotion &motion : i.undetermined)
+    for (const solve::FreeMotion &motion : i.system.undetermined)
       findings.add(ABUT_FAILURE_FLOATING_BODY, false,
                    "Loads and contact do not determine a motion: "
                        + motion.description
@@ -519,14 +520,15 @@ namespace abut::shim
                          "it. The answer has the least such motion in the mean "
                          "square over the body. Support the body in that "
                          "direction if the motion matters.");
-    result.motions = i.solver != nullptr ? i.solver->rigid_motions(displacement)
-                                         : i.followed_motions;
+    result.motions = i.system.solver != nullptr
+                         ? i.system.solver->rigid_motions(displacement)
+                         : i.system.followed_motions;
     const std::vector<FacetPenetration> facet_penetrations =
         i.source->facet_penetrations(displacement, i.row_states().data());
     i.surfaces->examination().examine(displacement, i.row_pressures().data(),
-                                      i.gap.data(), i.row_states().data(),
+                                      i.rows.gap.data(), i.row_states().data(),
                                       facet_penetrations);
-    result.deformation = i.deformation(displacement);
+    result.deformation = i.scales.deformation(displacement);
     const std::vector<PairCheck> checks = i.checks->pairs();
     const std::vector<PairResult<dim>> pairs = i.results->pairs();
     const std::vector<SurfacePair<dim>> &surface_pairs =
@@ -540,21 +542,24 @@ namespace abut::shim
                                              i.communicator),
                         round_off_of_places * checks[p].facet_size});
       // Where raising gaps has not come to its end, anything that is left.
-      visible.push_back(i.raises_end_early() ? i.least_clearance(displacement)
-                                             : scales[p].limit(useless));
+      visible.push_back(i.raises.has_ended_early()
+                            ? i.raises.least_clearance(displacement)
+                            : scales[p].limit(useless));
     }
     const std::vector<SeparatedRows> apart = i.surfaces->examination().apart(
-        visible, i.row_pressures().data(), i.gap.data(), i.row_states().data());
+        visible, i.row_pressures().data(), i.rows.gap.data(),
+        i.row_states().data());
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
-      const bool is_obstacle = i.pairs[p].obstacle != nullptr;
+      const bool is_obstacle = i.input.pairs[p].obstacle != nullptr;
       const Scale &scale = scales[p];
-      const bool follows = kinematics_info(i.method.kinematics).points
+      const bool follows = kinematics_info(i.input.method.kinematics).points
                                == ABUT_CONFIGURATION_CURRENT
-                           && !i.pairs[p].tied && !is_obstacle;
+                           && !i.input.pairs[p].tied && !is_obstacle;
       if (!follows)
         judge_sliding(pairs[p], checks[p], surface_pairs[p].gap_error_place,
-                      is_obstacle, i.pairs[p].secondary == i.pairs[p].primary,
+                      is_obstacle,
+                      i.input.pairs[p].secondary == i.input.pairs[p].primary,
                       surface_pairs[p].has_mean_gaps(), scale, findings);
       judge_rotation(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i), scale,
@@ -583,10 +588,11 @@ namespace abut::shim
                      pairs[p].name
                          + " would be refused; what was found is there to be "
                            "measured, and no answer.");
-      if (is_obstacle && i.pairs[p].geometric_gap)
+      if (is_obstacle && i.input.pairs[p].geometric_gap)
       {
-        const auto inside = find_obstacle_in_bodies(
-            i.host.mapping(), i.host.dof_handler(), displacement, i.pairs[p]);
+        const auto inside =
+            find_obstacle_in_bodies(i.host.mapping(), i.host.dof_handler(),
+                                    displacement, i.input.pairs[p]);
         judge_inside(pairs[p].name, inside,
                      inside.is_inside(checks[p].facet_size)
                          ? passed_between(i.surfaces->points(), p, inside.place)

@@ -18,7 +18,7 @@
 #include <cstring>
 #include <limits>
 
-namespace abut
+namespace abut::shim
 {
   using dealii::ExcMessage;
   using dealii::types::global_dof_index;
@@ -41,9 +41,8 @@ namespace abut
     {
       try
       {
-        static_cast<const shim::SurfaceRows<dim> *>(user)
-            ->multipliers()
-            .project(values);
+        static_cast<const SurfaceRows<dim> *>(user)->multipliers().project(
+            values);
       }
       catch (const std::exception &)
       {
@@ -65,7 +64,7 @@ namespace abut
     /** Number that distinguishes operators: their values, but for gaps. */
     std::uint64_t signature(const solve::PointOperator &rows)
     {
-      shim::FnvHash hash;
+      FnvHash hash;
       const auto add = [&](const double value)
       {
         std::uint64_t word = 0;
@@ -85,18 +84,141 @@ namespace abut
       }
       return hash.value;
     }
+
+    /** Keep the counts of an exchange that is about to go. */
+    template <int dim> void count_messages(ContactProblem<dim> &i)
+    {
+      if (i.surface_search.exchange == nullptr)
+        return;
+      const CommunicationReport sent =
+          i.surface_search.exchange->communication();
+      i.surface_search.sent_before.messages += sent.messages;
+      i.surface_search.sent_before.bytes += sent.bytes;
+      i.surface_search.sent_before.gathered_bytes += sent.gathered_bytes;
+    }
+
+    template <int dim>
+    void find_rows(ContactProblem<dim> &i, const la::Vector &displacement)
+    {
+      i.rows.mesh = 0;
+      const auto change = i.find_points(displacement);
+      if (change == RowSource::Change::points)
+        i.set_up_rows();
+      else if (change == RowSource::Change::constants)
+        i.rows.coefficients.renew_constants(i.source->nodes());
+      if (i.is_nitsche())
+      {
+        i.nitsche.find(i.surfaces, i.rows.coefficients.n_rows(),
+                       i.input.method.nitsche_theta);
+        i.system.solver.reset();
+      }
+      i.rows.mesh = i.rows.points_mesh;
+      i.find_slip_reference();
+      i.start.find(i.start_rows(), i.history);
+    }
+
+    /** Give the strategy its data of friction. Collective. */
+    template <int dim> void set_friction(ContactProblem<dim> &i)
+    {
+      i.rows.diagonal.clear();
+      const auto points_with_friction = i.source->friction();
+      if (!points_with_friction.any)
+        return;
+      std::vector<double> traction;
+      if (i.history.knows(ABUT_HISTORY_COMMITTED, i.rows.mesh))
+      {
+        const std::vector<double> rows = i.history.pressures(
+            i.row_numbers(), i.rows.placed, ABUT_HISTORY_COMMITTED);
+        for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+          if (i.rows.coefficients.is_tangent(row))
+            traction.push_back(rows[row]);
+      }
+      abut_strategy_friction friction = {};
+      friction.struct_size = sizeof(friction);
+      friction.n = static_cast<std::int32_t>(points_with_friction.first.size());
+      friction.first = points_with_friction.first.data();
+      friction.n_tangents = points_with_friction.n_tangents.data();
+      friction.coefficient = points_with_friction.coefficient.data();
+      friction.cap = points_with_friction.cap.data();
+      friction.tangent = points_with_friction.tangent.data();
+      friction.reference_traction =
+          traction.empty() ? nullptr : traction.data();
+      if (!abut_law_has_penalty(i.input.method.options.law))
+      {
+        friction.n_rivals =
+            static_cast<std::int32_t>(points_with_friction.rival_point.size());
+        friction.rival_point = points_with_friction.rival_point.data();
+        friction.rival_row = points_with_friction.rival_row.data();
+      }
+      i.input.method.set_law(friction);
+      i.check(abut_strategy_set_friction(i.strategy.get(), &friction));
+    }
+
+    /** Data of the iteration that begins, for the solver. */
+    template <int dim>
+    solve::ContactIteration iteration_of(ContactProblem<dim> &i)
+    {
+      solve::ContactIteration result;
+      result.gap = &i.rows.gap;
+      result.start = &i.start_displacement;
+      if (i.surfaces != nullptr)
+      {
+        result.group = i.surfaces->points().row_pairs();
+        result.n_groups = i.input.pairs.size();
+      }
+      result.approach = [&i](const std::vector<solve::RigidMotion> &motions,
+                             const std::vector<std::uint8_t> &is_apart)
+      { i.add_approach(motions, is_apart); };
+      result.turns = i.moves() && i.input.method.turning_terms
+                     && !i.start.is_pressed(i.communicator);
+      result.load = std::max(i.scales.present_load, i.scales.committed_load);
+      result.linear_tolerance = i.input.method.options.final_linear_tolerance;
+      return result;
+    }
+
+    /** Throws if a matrix is needed. */
+    template <int dim> void check_host(const ContactProblem<dim> &i)
+    {
+      const auto need = [](const bool is_wanted, const std::string &what)
+      {
+        AssertThrow(!is_wanted,
+                    ExcMessage(what
+                               + " needs the matrix of the tangent, "
+                                 "not a HostOperator."));
+      };
+      using Linear = SolverParameters::Linear;
+      need(i.is_nitsche(), "Nitsche's method");
+      need(i.input.method.system == System::saddle_point,
+           "Method/System = saddle point");
+      need(i.moves(), "Contact at points that move (Method/Sliding)");
+      need(i.input.solver.linear == Linear::direct,
+           "Solver/Linear solver = direct");
+      need(i.input.solver.linear == Linear::geometric,
+           "Solver/Linear solver = geometric");
+    }
+
+    /** Build the preconditioner that was loaded, if there is one. */
+    template <int dim> void restore_preconditioner(ContactProblem<dim> &i)
+    {
+      if (i.system.kept_preconditioner.empty())
+        return;
+      const bool other_rows = i.system.kept_rows != i.rows.signature;
+      if (!dealii::Utilities::MPI::logical_or(other_rows, i.communicator))
+        i.system.solver->restore(i.system.kept_preconditioner);
+      i.system.kept_preconditioner.clear();
+    }
   } // namespace
 
   template <int dim>
-  void shim::ContactProblem<dim>::check(const abut_status status) const
+  void ContactProblem<dim>::check(const abut_status status) const
   {
     shim::check_everywhere(communicator, context.get(), status);
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::check_law(const abut_status status) const
+  void ContactProblem<dim>::check_law(const abut_status status) const
   {
-    if (method.user_law == nullptr)
+    if (input.method.user_law == nullptr)
       check(status);
     else
       shim::check_everywhere<SolverFailure>(communicator, context.get(),
@@ -104,31 +226,31 @@ namespace abut
   }
 
   template <int dim>
-  double shim::ContactProblem<dim>::row_pressure(const int row) const
+  double ContactProblem<dim>::row_pressure(const int row) const
   {
     return is_started ? request.pressure[row] : start.pressure(row);
   }
 
   template <int dim>
-  std::vector<double> shim::ContactProblem<dim>::row_pressures() const
+  std::vector<double> ContactProblem<dim>::row_pressures() const
   {
-    std::vector<double> result(coefficients.n_rows());
-    for (int row = 0; row < coefficients.n_rows(); ++row)
+    std::vector<double> result(rows.coefficients.n_rows());
+    for (int row = 0; row < rows.coefficients.n_rows(); ++row)
       result[row] = row_pressure(row);
     return result;
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::add_forces(la::Vector &forces) const
+  void ContactProblem<dim>::add_forces(la::Vector &forces) const
   {
     std::vector<double> force = row_pressures();
-    for (int row = 0; row < coefficients.n_rows(); ++row)
-      force[row] *= coefficients.weights()[row];
-    coefficients.add_transposed(force.data(), forces);
+    for (int row = 0; row < rows.coefficients.n_rows(); ++row)
+      force[row] *= rows.coefficients.weights()[row];
+    rows.coefficients.add_transposed(force.data(), forces);
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
+  void ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
   {
     AssertThrow(!is_nitsche(), ExcMessage("The forces of Nitsche's method "
                                           "are not those of its pressures "
@@ -136,7 +258,7 @@ namespace abut
     add_forces(forces);
   }
 
-  template <int dim> abut_progress shim::ContactProblem<dim>::progress() const
+  template <int dim> abut_progress ContactProblem<dim>::progress() const
   {
     abut_progress progress = {};
     // A strategy whose law fails is not started any more.
@@ -149,31 +271,33 @@ namespace abut
   }
 
   template <int dim>
-  std::vector<std::uint8_t> shim::ContactProblem<dim>::row_states() const
+  std::vector<std::uint8_t> ContactProblem<dim>::row_states() const
   {
     if (is_started)
-      return {request.state, request.state + coefficients.n_rows()};
-    return start.states(coefficients);
+      return {request.state, request.state + rows.coefficients.n_rows()};
+    return start.states(rows.coefficients);
   }
 
   template <int dim>
-  double shim::ContactProblem<dim>::law_defect(const int row,
-                                               const double gap_there) const
+  double ContactProblem<dim>::law_defect(const int row,
+                                         const double gap_there) const
   {
-    if (coefficients.bilateral()[row] == 0 && !coefficients.is_tangent(row)
+    if (rows.coefficients.bilateral()[row] == 0
+        && !rows.coefficients.is_tangent(row)
         && request.state[row] == ABUT_STATE_OPEN
-        && !abut_law_is_interior(method.options.law))
+        && !abut_law_is_interior(input.method.options.law))
       return std::min(0., gap_there);
-    const auto at = diagonal.empty() ? row : diagonal[row];
+    const auto at = rows.diagonal.empty() ? row : rows.diagonal[row];
     const double a = request.d_pressure[at], b = request.d_gap[at];
-    const double size = std::max(std::abs(b), std::abs(a) * stiffness[row]);
-    return size > 0.
-               ? (request.residual[row] + b * (gap_there - gap[row])) / size
-               : 0.;
+    const double size =
+        std::max(std::abs(b), std::abs(a) * scales.stiffness[row]);
+    return size > 0. ? (request.residual[row] + b * (gap_there - rows.gap[row]))
+                           / size
+                     : 0.;
   }
 
   template <int dim>
-  const shim::RowSource &shim::ContactProblem<dim>::present_source() const
+  const RowSource &ContactProblem<dim>::present_source() const
   {
     AssertThrow(source != nullptr,
                 ExcMessage("There are no rows: call detect() first."));
@@ -181,32 +305,33 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::check_rows(const std::string &call) const
+  void ContactProblem<dim>::check_rows(const std::string &call) const
   {
     host.check_mesh(call);
-    AssertThrow(has_rows, ExcMessage("Call detect() before " + call
-                                     + ": there are no rows since the last "
-                                       "reinit()."));
+    AssertThrow(rows.are_found,
+                ExcMessage("Call detect() before " + call
+                           + ": there are no rows since the last "
+                             "reinit()."));
   }
 
-  template <int dim> void shim::ContactProblem<dim>::create_source()
+  template <int dim> void ContactProblem<dim>::create_source()
   {
     surfaces = nullptr;
-    const bool has_obstacle = obstacle.lower || obstacle.upper;
-    if (!pairs.empty() || (has_pairs && !has_obstacle))
+    const bool has_obstacle = input.obstacle.lower || input.obstacle.upper;
+    if (!input.pairs.empty() || (input.has_pairs && !has_obstacle))
     {
-      auto made = std::make_unique<shim::SurfaceRows<dim>>(
-          shim::PairHost<dim>{host.mapping(), host.dof_handler(),
-                              host.constraints(), method, search, axisymmetric,
-                              context.get(), detection},
-          pairs, exchange);
+      auto made = std::make_unique<SurfaceRows<dim>>(
+          PairHost<dim>{host.mapping(), host.dof_handler(), host.constraints(),
+                        input.method, input.search, input.axisymmetric,
+                        context.get(), surface_search.detection},
+          input.pairs, surface_search.exchange);
       surfaces = made.get();
-      surfaces->set().foresee_motion(foreseen_motion);
+      surfaces->set().foresee_motion(surface_search.foreseen_motion);
       if (committed.displacement().size() > 0)
         surfaces->set().record_commit(committed.displacement());
-      if (exchange != surfaces->set().exchange())
-        count_messages();
-      exchange = surfaces->set().exchange();
+      if (surface_search.exchange != surfaces->set().exchange())
+        count_messages(*this);
+      surface_search.exchange = surfaces->set().exchange();
       source = std::move(made);
     }
     else
@@ -220,39 +345,31 @@ namespace abut
               "Obstacles need a scalar field: the finite element has "
               + std::to_string(host.dof_handler().get_fe().n_components())
               + " components."));
-      const Message reason = shim::obstacle_refusal(
-          host.dof_handler(), !obstacle.boundary_ids.empty());
+      const Message reason = obstacle_refusal(
+          host.dof_handler(), !input.obstacle.boundary_ids.empty());
       if (!reason.empty())
         throw ObstacleError(reason);
-      source = std::make_unique<shim::NodalObstacleRows<dim>>(
-          host.mapping(), host.dof_handler(), host.constraints(), obstacle);
+      source = std::make_unique<NodalObstacleRows<dim>>(
+          host.mapping(), host.dof_handler(), host.constraints(),
+          input.obstacle);
     }
     source_is_outdated = false;
-    bodies.reset();
+    system.bodies.reset();
   }
 
-  template <int dim> void shim::ContactProblem<dim>::count_messages()
+  template <int dim> void ContactProblem<dim>::clear_source()
   {
-    if (exchange == nullptr)
-      return;
-    const CommunicationReport sent = exchange->communication();
-    sent_before.messages += sent.messages;
-    sent_before.bytes += sent.bytes;
-    sent_before.gathered_bytes += sent.gathered_bytes;
-  }
-
-  template <int dim> void shim::ContactProblem<dim>::clear_source()
-  {
-    count_messages();
-    exchange.reset();
+    count_messages(*this);
+    surface_search.exchange.reset();
     source.reset();
     surfaces = nullptr;
     source_is_outdated = true;
   }
 
   template <int dim>
-  solve::PointOperator shim::ContactProblem<dim>::make_operator(
-      abut_points *const made, shim::PairPoints<dim> *const elsewhere)
+  solve::PointOperator
+  ContactProblem<dim>::make_operator(abut_points *const made,
+                                     PairPoints<dim> *const elsewhere)
   {
     abut_points_view view = {};
     check(abut_points_get(made, &view));
@@ -277,14 +394,14 @@ namespace abut
   }
 
   template <int dim>
-  shim::RowSource::Change
-  shim::ContactProblem<dim>::find_points(const la::Vector &displacement)
+  RowSource::Change
+  ContactProblem<dim>::find_points(const la::Vector &displacement)
   {
-    if (points == nullptr || points_dimension != source->dimension())
+    if (rows.points == nullptr || rows.dimension != source->dimension())
     {
-      coefficients = solve::PointOperator();
-      points_dimension = source->dimension();
-      points = shim::create_points(context.get(), points_dimension);
+      rows.coefficients = solve::PointOperator();
+      rows.dimension = source->dimension();
+      rows.points = create_points(context.get(), rows.dimension);
     }
     if (surfaces != nullptr && makes_points_at_commits())
     {
@@ -296,58 +413,39 @@ namespace abut
       committed.give_poses(surfaces->set().obstacles());
     try
     {
-      return source->find(displacement, points.get());
+      return source->find(displacement, rows.points.get());
     }
     catch (...)
     {
       // The remaining points are not the ones that these were made of.
-      coefficients = solve::PointOperator();
+      rows.coefficients = solve::PointOperator();
       throw;
     }
   }
 
-  template <int dim> void shim::ContactProblem<dim>::set_up_rows()
+  template <int dim> void ContactProblem<dim>::set_up_rows()
   {
-    coefficients = make_operator(points.get());
-    n_rows = MPI::sum(static_cast<global_dof_index>(coefficients.n_rows()),
-                      communicator);
+    rows.coefficients = make_operator(rows.points.get());
+    rows.n_rows =
+        MPI::sum(static_cast<global_dof_index>(rows.coefficients.n_rows()),
+                 communicator);
     // A solver is kept as long as it would be made of the same rows: in the
     // reference configuration they are the same in most load steps.
-    const std::uint64_t before = rows_signature;
-    rows_signature = signature(coefficients);
-    if (MPI::logical_or(before != rows_signature, communicator))
-      solver.reset();
-    points_mesh = source->mesh_signature();
-    placed_rows = source->placed_rows();
+    const std::uint64_t before = rows.signature;
+    rows.signature = signature(rows.coefficients);
+    if (MPI::logical_or(before != rows.signature, communicator))
+      system.solver.reset();
+    rows.points_mesh = source->mesh_signature();
+    rows.placed = source->placed_rows();
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::find_rows(const la::Vector &displacement)
-  {
-    rows_mesh = 0;
-    const auto change = find_points(displacement);
-    if (change == shim::RowSource::Change::points)
-      set_up_rows();
-    else if (change == shim::RowSource::Change::constants)
-      coefficients.renew_constants(source->nodes());
-    if (is_nitsche())
-    {
-      nitsche.find(surfaces, coefficients.n_rows(), method.nitsche_theta);
-      solver.reset();
-    }
-    rows_mesh = points_mesh;
-    find_slip_reference();
-    start.find(start_rows(), history);
-  }
-
-  template <int dim>
-  void
-  shim::ContactProblem<dim>::find_rows_in_reach(const la::Vector &displacement)
+  void ContactProblem<dim>::find_rows_in_reach(const la::Vector &displacement)
   {
     for (bool is_found = false; !is_found;)
       try
       {
-        find_rows(displacement);
+        find_rows(*this, displacement);
         is_found = true;
       }
       catch (const ContactError &error)
@@ -361,22 +459,23 @@ namespace abut
       }
   }
 
-  template <int dim> void shim::ContactProblem<dim>::find_slip_reference()
+  template <int dim> void ContactProblem<dim>::find_slip_reference()
   {
-    slip_reference = {};
-    has_friction = MPI::logical_or(coefficients.has_tangents(), communicator);
-    if (!has_friction)
+    rows.slip_reference = {};
+    rows.has_friction =
+        MPI::logical_or(rows.coefficients.has_tangents(), communicator);
+    if (!rows.has_friction)
       return;
     committed.check("Slips with friction are measured from");
     committed.give_poses(surfaces->set().obstacles());
     surfaces->slip().set_approach(
-        committed.approach(pairs.size(), [&](const auto &motions)
+        committed.approach(input.pairs.size(), [&](const auto &motions)
                            { return displacement_of(motions); }));
-    slip_reference = source->slip_reference(committed.displacement());
+    rows.slip_reference = source->slip_reference(committed.displacement());
   }
 
   template <int dim>
-  la::Vector shim::ContactProblem<dim>::displacement_of(
+  la::Vector ContactProblem<dim>::displacement_of(
       const std::vector<solve::RigidMotion> &motions) const
   {
     const solve::NearNullSpace &space = near_null_space();
@@ -397,291 +496,196 @@ namespace abut
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::add_approach(
+  void ContactProblem<dim>::add_approach(
       const std::vector<solve::RigidMotion> &motions,
       const std::vector<std::uint8_t> &is_apart)
   {
-    if (!has_friction)
+    if (!rows.has_friction)
       return;
     committed.add_approach(motions, is_apart);
     find_slip_reference();
   }
 
-  template <int dim> void shim::ContactProblem<dim>::set_friction()
+  template <int dim> bool ContactProblem<dim>::is_nitsche() const
   {
-    diagonal.clear();
-    const auto points_with_friction = source->friction();
-    if (!points_with_friction.any)
-      return;
-    std::vector<double> traction;
-    if (history.knows(ABUT_HISTORY_COMMITTED, rows_mesh))
-    {
-      const std::vector<double> rows =
-          history.pressures(row_numbers(), placed_rows, ABUT_HISTORY_COMMITTED);
-      for (int row = 0; row < coefficients.n_rows(); ++row)
-        if (coefficients.is_tangent(row))
-          traction.push_back(rows[row]);
-    }
-    abut_strategy_friction friction = {};
-    friction.struct_size = sizeof(friction);
-    friction.n = static_cast<std::int32_t>(points_with_friction.first.size());
-    friction.first = points_with_friction.first.data();
-    friction.n_tangents = points_with_friction.n_tangents.data();
-    friction.coefficient = points_with_friction.coefficient.data();
-    friction.cap = points_with_friction.cap.data();
-    friction.tangent = points_with_friction.tangent.data();
-    friction.reference_traction = traction.empty() ? nullptr : traction.data();
-    if (!abut_law_has_penalty(method.options.law))
-    {
-      friction.n_rivals =
-          static_cast<std::int32_t>(points_with_friction.rival_point.size());
-      friction.rival_point = points_with_friction.rival_point.data();
-      friction.rival_row = points_with_friction.rival_row.data();
-    }
-    method.set_law(friction);
-    check(abut_strategy_set_friction(strategy.get(), &friction));
-  }
-
-  template <int dim> bool shim::ContactProblem<dim>::is_nitsche() const
-  {
-    return abut_law_needs_stress(method.options.law);
+    return abut_law_needs_stress(input.method.options.law);
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::compute_gap(const la::Vector &displacement)
+  void ContactProblem<dim>::compute_gap(const la::Vector &displacement)
   {
-    gap.resize(coefficients.n_rows());
-    coefficients.gap(displacement, gap.data());
-    slip_reference.subtract_from(gap);
-    add_raises(coefficients, gap);
+    rows.gap.resize(rows.coefficients.n_rows());
+    rows.coefficients.gap(displacement, rows.gap.data());
+    rows.slip_reference.subtract_from(rows.gap);
+    raises.add_to(rows.coefficients, rows.gap);
     if (is_nitsche())
       nitsche.move_to(displacement);
   }
 
-  template <int dim> const double *shim::ContactProblem<dim>::law_gap()
+  template <int dim> const double *ContactProblem<dim>::law_gap()
   {
-    return is_nitsche() ? nitsche.law_gap(gap) : gap.data();
+    return is_nitsche() ? nitsche.law_gap(rows.gap) : rows.gap.data();
   }
 
   template <int dim>
-  void
-  shim::ContactProblem<dim>::find_row_stiffness(const solve::Stiffness &matrix)
-  {
-    la::Vector compliance = solve::compliance(matrix);
-    row_stiffness = solve::row_stiffness(compliance, coefficients);
-    if (law_compliance.size() == 0)
-    {
-      if (host.reference())
-        compliance = solve::compliance(*host.reference());
-      law_compliance.swap(compliance);
-      if (moves()) // directions turn, and the law must not
-        surfaces->fields().make_isotropic(law_compliance);
-    }
-  }
-
-  template <int dim>
-  void shim::ContactProblem<dim>::begin_at(const la::Vector &displacement)
+  void ContactProblem<dim>::begin_at(const la::Vector &displacement)
   {
     is_started = false;
-    was_added = false;
+    system.was_added = false;
     start_displacement = displacement;
     compute_gap(displacement);
     find_geometry();
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::begin(const solve::Stiffness &matrix,
-                                        const la::Vector &residual)
+  void ContactProblem<dim>::begin(const solve::Stiffness &matrix,
+                                  const la::Vector &residual)
   {
-    stiffness = solve::row_stiffness(law_compliance, coefficients);
+    std::vector<double> &stiffness = scales.stiffness;
+    stiffness = solve::row_stiffness(scales.law_compliance, rows.coefficients);
     if (surfaces != nullptr)
       surfaces->multipliers().spread_stiffness(stiffness);
-    set_scales(matrix, residual);
-    method.options.reduce = reduce_over_ranks;
-    method.options.user = const_cast<MPI_Comm *>(&communicator);
+    scales.set(matrix, residual);
+    input.method.options.reduce = reduce_over_ranks;
+    input.method.options.user = const_cast<MPI_Comm *>(&communicator);
     const bool has_space = surfaces != nullptr && surfaces->set().has_points();
-    method.options.project = has_space ? project_on_nodes<dim> : nullptr;
-    method.options.project_user = surfaces;
-    abut_strategy_options options = method.options;
+    input.method.options.project = has_space ? project_on_nodes<dim> : nullptr;
+    input.method.options.project_user = surfaces;
+    abut_strategy_options options = input.method.options;
     go_on_with_penalty(options);
-    if (iteration_tolerance > 0.)
+    if (system.tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
-          iteration_tolerance;
-    strategy = shim::create_strategy(context.get(), options);
-    set_friction();
+          system.tolerance;
+    strategy = create_strategy(context.get(), options);
+    set_friction(*this);
 
-    if (!is_nitsche() && surfaces != nullptr && is_penalty(*method.options.law))
+    if (!is_nitsche() && surfaces != nullptr
+        && is_penalty(*input.method.options.law))
       surfaces->multipliers().make_uniform(stiffness);
     if (surfaces != nullptr)
       surfaces->multipliers().copy_to_tangents(stiffness);
     if (is_nitsche())
     {
-      method.options.penalty = abut_strategy_first_penalty(&method.options);
-      nitsche.set_penalty(method.options.penalty, stiffness);
+      input.method.options.penalty =
+          abut_strategy_first_penalty(&input.method.options);
+      nitsche.set_penalty(input.method.options.penalty, stiffness);
     }
     if (surfaces != nullptr && !start.is_restarted()
-        && !abut_law_is_interior(method.options.law))
+        && !abut_law_is_interior(input.method.options.law))
     {
       std::vector<double> scale(stiffness);
       for (double &c : scale)
-        c *= method.options.complementarity;
+        c *= input.method.options.complementarity;
       start.set_state(surfaces->multipliers().first_contact(
-          gap, start.pressure(), scale,
-          touching * shim::smallest_body(near_null_space(), communicator)));
+          rows.gap, start.pressure(), scale,
+          touching * smallest_body(near_null_space(), communicator)));
     }
-    if (solver != nullptr)
-      solver->begin_iteration(iteration());
+    if (system.solver != nullptr)
+      system.solver->begin_iteration(iteration_of(*this));
     check_law(abut_strategy_start(
-        strategy.get(), coefficients.n_rows(), coefficients.ids(),
-        coefficients.weights(), stiffness.data(), coefficients.bilateral(),
-        law_gap(), start.pressure().empty() ? nullptr : start.pressure().data(),
+        strategy.get(), rows.coefficients.n_rows(), rows.coefficients.ids(),
+        rows.coefficients.weights(), stiffness.data(),
+        rows.coefficients.bilateral(), law_gap(),
+        start.pressure().empty() ? nullptr : start.pressure().data(),
         start.state().empty() ? nullptr : start.state().data()));
     next();
     const solve::RowBlocks blocks(request);
     for (int block = 0; !blocks.empty() && block < blocks.n_blocks(); ++block)
       for (int r = 0, k = blocks.size(block); r < k; ++r)
-        diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
+        rows.diagonal.push_back(blocks.at[block] + std::int64_t(r) * (k + 1));
     start.give_field(la::Vector()); // is in the history now
     is_started = true;
   }
 
-  template <int dim>
-  solve::ContactIteration shim::ContactProblem<dim>::iteration()
+  template <int dim> void ContactProblem<dim>::record_end()
   {
-    solve::ContactIteration result;
-    result.gap = &gap;
-    result.start = &start_displacement;
-    if (surfaces != nullptr)
-    {
-      result.group = surfaces->points().row_pairs();
-      result.n_groups = pairs.size();
-    }
-    result.approach = [this](const std::vector<solve::RigidMotion> &motions,
-                             const std::vector<std::uint8_t> &is_apart)
-    { add_approach(motions, is_apart); };
-    result.turns =
-        moves() && method.turning_terms && !start.is_pressed(communicator);
-    result.load = std::max(present_load, committed_load);
-    result.linear_tolerance = method.options.final_linear_tolerance;
-    return result;
+    system.undetermined.clear();
+    system.followed_motions.clear();
+    if (request.action == ABUT_ACTION_STOP && system.solver != nullptr)
+      system.undetermined = system.solver->end_iteration(request);
   }
 
-  template <int dim> void shim::ContactProblem<dim>::record_end()
-  {
-    undetermined.clear();
-    followed_motions.clear();
-    if (request.action == ABUT_ACTION_STOP && solver != nullptr)
-      undetermined = solver->end_iteration(request);
-  }
-
-  template <int dim> bool shim::ContactProblem<dim>::widen_search()
+  template <int dim> bool ContactProblem<dim>::widen_search()
   {
     // Parts of the size of the smallest body.
     constexpr double first = 0.5, growth = 4., last = 8.;
     if (surfaces == nullptr)
       return false;
-    const double size = shim::smallest_body(near_null_space(), communicator);
-    const double next =
-        foreseen_motion > 0. ? growth * foreseen_motion : first * size;
+    const double size = smallest_body(near_null_space(), communicator);
+    const double next = surface_search.foreseen_motion > 0.
+                            ? growth * surface_search.foreseen_motion
+                            : first * size;
     if (next > 1.001 * last * size || size == 0.)
       return false;
-    foreseen_motion = next;
+    surface_search.foreseen_motion = next;
     surfaces->renew_points();
     surfaces->set().foresee_motion(next);
     return true;
   }
 
   template <int dim>
-  const solve::NearNullSpace &shim::ContactProblem<dim>::near_null_space() const
+  const solve::NearNullSpace &ContactProblem<dim>::near_null_space() const
   {
-    if (!bodies)
+    if (!system.bodies)
     {
       // Nitsche's method and hosts have their own multigrid.
-      SolverParameters parameters = solver_parameters;
-      if (is_nitsche() || !solver_has_matrix)
+      SolverParameters parameters = input.solver;
+      if (is_nitsche() || !system.has_matrix)
         parameters.linear = SolverParameters::Linear::iterative;
-      bodies = shim::make_solver_space(host.mapping(), host.dof_handler(),
-                                       host.constraints(), surfaces != nullptr,
-                                       parameters, host.vertex_origins());
+      system.bodies = make_solver_space(host.mapping(), host.dof_handler(),
+                                        host.constraints(), surfaces != nullptr,
+                                        parameters, host.vertex_origins());
     }
-    return *bodies;
-  }
-
-  template <int dim> void shim::ContactProblem<dim>::check_host() const
-  {
-    const auto need = [](const bool is_wanted, const std::string &what)
-    {
-      AssertThrow(!is_wanted, ExcMessage(what
-                                         + " needs the matrix of the tangent, "
-                                           "not a HostOperator."));
-    };
-    using Linear = SolverParameters::Linear;
-    need(is_nitsche(), "Nitsche's method");
-    need(method.system == System::saddle_point, "Method/System = saddle point");
-    need(moves(), "Contact at points that move (Method/Sliding)");
-    need(solver_parameters.linear == Linear::direct,
-         "Solver/Linear solver = direct");
-    need(solver_parameters.linear == Linear::geometric,
-         "Solver/Linear solver = geometric");
+    return *system.bodies;
   }
 
   template <int dim>
-  void
-  shim::ContactProblem<dim>::prepare_solver(const solve::Stiffness &of_host)
+  void ContactProblem<dim>::prepare_solver(const solve::Stiffness &of_host)
   {
-    if (of_host.has_matrix() != solver_has_matrix)
+    if (of_host.has_matrix() != system.has_matrix)
     {
-      solver.reset();
-      bodies.reset();
+      system.solver.reset();
+      system.bodies.reset();
     }
-    solver_has_matrix = of_host.has_matrix();
-    if (!solver_has_matrix)
-      check_host();
-    const bool is_renewed = solver != nullptr && constant_matrix;
-    if (is_renewed && !has_new_matrix)
+    system.has_matrix = of_host.has_matrix();
+    if (!system.has_matrix)
+      check_host(*this);
+    const bool is_renewed = system.solver != nullptr && input.constant_matrix;
+    if (is_renewed && !system.has_new_matrix)
       return;
-    has_new_matrix = false;
-    find_row_stiffness(of_host);
+    system.has_new_matrix = false;
+    scales.find_compliance(of_host);
     const solve::Stiffness matrix =
-        solver_has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
-    if (solver == nullptr)
+        system.has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
+    if (system.solver == nullptr)
     {
       if (is_nitsche())
-        solver = std::make_unique<solve::NitscheSolver>(solver_parameters,
-                                                        nitsche.terms());
+        system.solver = std::make_unique<solve::NitscheSolver>(input.solver,
+                                                               nitsche.terms());
       else
-        solver = solve::make_row_solver(method.system, solver_parameters,
-                                        coefficients, solver_has_matrix);
-      solver->set_near_null_space(near_null_space());
+        system.solver =
+            solve::make_row_solver(input.method.system, input.solver,
+                                   rows.coefficients, system.has_matrix);
+      system.solver->set_near_null_space(near_null_space());
     }
     if (moves())
-      solver->set_bodies(of_host);
+      system.solver->set_bodies(of_host);
     if (is_renewed)
     {
-      solver->renew(matrix, coefficients, row_stiffness);
+      system.solver->renew(matrix, rows.coefficients, scales.row_stiffness);
       return;
     }
-    solver->reinit(matrix, coefficients, row_stiffness);
-    restore_preconditioner();
+    system.solver->reinit(matrix, rows.coefficients, scales.row_stiffness);
+    restore_preconditioner(*this);
   }
 
-  template <int dim> void shim::ContactProblem<dim>::restore_preconditioner()
-  {
-    if (kept_preconditioner.empty())
-      return;
-    const bool other_rows = kept_rows != rows_signature;
-    if (!dealii::Utilities::MPI::logical_or(other_rows, communicator))
-      solver->restore(kept_preconditioner);
-    kept_preconditioner.clear();
-  }
-
-  template <int dim> void shim::ContactProblem<dim>::next()
+  template <int dim> void ContactProblem<dim>::next()
   {
     check_law(abut_strategy_next(strategy.get(), law_gap(), &request));
   }
 
   template <int dim>
-  void shim::ContactProblem<dim>::push_inside(la::Vector &displacement)
+  void ContactProblem<dim>::push_inside(la::Vector &displacement)
   {
     // On the path of the barrier p g = mu, as far as the start knows p.
     double largest = 0.;
@@ -689,15 +693,17 @@ namespace abut
       largest = std::max(largest, p);
     largest = MPI::max(largest, communicator);
     const bool warm = largest > 0.;
-    const double barrier = warm ? std::min(1e-4, method.options.barrier_start)
-                                : method.options.barrier_start;
-    std::vector<double> margin(coefficients.n_rows(), barrier * length_scale());
+    const double barrier =
+        warm ? std::min(1e-4, input.method.options.barrier_start)
+             : input.method.options.barrier_start;
+    std::vector<double> margin(rows.coefficients.n_rows(),
+                               barrier * scales.length_scale());
     if (warm)
-      for (int i = 0; i < coefficients.n_rows(); ++i)
+      for (int i = 0; i < rows.coefficients.n_rows(); ++i)
         margin[i] *= largest / std::max(start.pressure(i), 1e-2 * largest);
-    source->push_inside(gap, margin, displacement);
+    source->push_inside(rows.gap, margin, displacement);
   }
 
-  template struct shim::ContactProblem<2>;
-  template struct shim::ContactProblem<3>;
-} // namespace abut
+  template struct ContactProblem<2>;
+  template struct ContactProblem<3>;
+} // namespace abut::shim

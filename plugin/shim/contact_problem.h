@@ -5,7 +5,8 @@
 #include "committed_state.h"
 #include "contact_history.h"
 #include "contact_host.h"
-#include "gap_raise.h"
+#include "contact_scales.h"
+#include "gap_raises.h"
 #include "handles.h"
 #include "moving_rows.h"
 #include "nitsche_rows.h"
@@ -38,6 +39,72 @@ namespace abut::shim
   examine(ContactProblem<dim> &problem, const la::VectorView &displacement,
           const la::VectorView &residual, bool allow_large_strain);
 
+  /** Input of a host. */
+  template <int dim> struct ContactInput
+  {
+    Obstacle<dim> obstacle;
+    std::vector<ContactPair<dim>> pairs;
+    bool has_pairs = false; ///< they were given, and may be empty
+    bool axisymmetric = false;
+    MethodParameters method;
+    SearchParameters search;
+    SolverParameters solver;
+    bool constant_matrix = false;
+  };
+
+  /** Surfaces of pairs, and what it took to find which may touch. */
+  template <int dim> struct SurfaceSearch
+  {
+    /** The facets of pairs on this mesh, once they are found. */
+    std::shared_ptr<SurfaceExchange<dim>> exchange;
+    CommunicationReport sent_before; ///< on earlier meshes
+    DetectionReport detection;
+    ContactElements elements;
+    /** How far rigid motions are foreseen to go, for searches. */
+    double foreseen_motion = 0.;
+  };
+
+  /** Rows of the last detect(), or where points have moved to. */
+  struct PresentRows
+  {
+    bool are_found = false; ///< since reinit(), by detect()
+    Handle<abut_points> points;
+    int dimension = 0;             ///< unknowns of the points' nodes
+    std::uint64_t points_mesh = 0; ///< signature of the points' mesh
+    std::uint64_t mesh = 0;        ///< signature of the rows' mesh; 0: no rows
+    std::uint64_t signature = 0;   ///< of values, but for gaps
+    solve::PointOperator coefficients; ///< B, by component of the points
+    dealii::types::global_dof_index n_rows = 0; ///< on all ranks
+    std::vector<PlacedRow> placed;
+    std::vector<double> gap;   ///< [rows] at the current displacement
+    bool has_friction = false; ///< some pair has, on all ranks
+    RowSource::SlipReference slip_reference;
+    /** [rows] place of a row's own derivatives in those of the request. */
+    std::vector<std::int64_t> diagonal;
+  };
+
+  /** Linear systems with rows. */
+  struct RowSystem
+  {
+    /** Null until the first solve with the present rows. */
+    std::unique_ptr<solve::RowSolver> solver;
+    bool has_matrix = true;        ///< or it is of a host without one
+    bool has_new_matrix = false;   ///< since the last solve
+    double tolerance = 0.;         ///< of the iteration; 0: the method's
+    bool was_added = false;        ///< by add(): the host solves
+    solve::LocalElimination local; ///< of rows that are added to a matrix
+    mutable std::optional<solve::NearNullSpace> bodies; ///< none: not made
+    /** State that a preconditioner to be built again was built for, with the
+     * signature of its rows; empty: none. */
+    std::vector<solve::PreconditionerState> kept_preconditioner;
+    std::uint64_t kept_rows = 0;
+    /** Rigid motions that the last iteration has left undetermined. */
+    std::vector<solve::FreeMotion> undetermined;
+    /** Rigid motions of bodies where points were last taken to. */
+    std::vector<BodyMotion> followed_motions;
+    LinearReport report; ///< since reinit()
+  };
+
   /** The inside of a ContactAssembler: rows, start and strategy of one solve.
    * Where rows come from is the business of a row source. */
   template <int dim> struct ContactProblem
@@ -46,7 +113,7 @@ namespace abut::shim
         : communicator(communicator), host(communicator)
     {
       // Options without a law are those of lagrange.
-      method.options.law = abut_law_find("lagrange");
+      input.method.options.law = abut_law_find("lagrange");
     }
 
     void check(const abut_status status) const;
@@ -65,12 +132,9 @@ namespace abut::shim
       return host.vector(call, what, vector);
     }
     void create_source();
-    /** Keep the counts of an exchange that is about to go. */
-    void count_messages();
     /** Forget the mesh. */
     void clear_source();
-    void find_rows(const la::Vector &displacement);
-    /** The same, with a larger reach where bodies without supports have no row
+    /** Find rows, with a larger reach where bodies without supports have no row
      * otherwise. */
     void find_rows_in_reach(const la::Vector &displacement);
     /** Let the source find points. Collective. */
@@ -103,27 +167,10 @@ namespace abut::shim
     /** A motion on the present mesh. */
     la::Vector
     displacement_of(const std::vector<solve::RigidMotion> &motions) const;
-    /** Give the strategy its data of friction. Collective. */
-    void set_friction();
     /** Whether the law needs the normal stress of the bodies. */
     bool is_nitsche() const;
     /** The gap as the law wants it. */
     const double *law_gap();
-    void set_scales(const solve::Stiffness &matrix, const la::Vector &residual);
-    /** Length scale of the present iteration. Collective. */
-    double length_scale() const;
-    /** The same, or 0 where nothing has moved and all gaps are 0. Collective.
-     */
-    double measured_length() const;
-    double unmeasured_length() const;
-    /** See ContactAssembler::length_scale(). Collective. */
-    double length_scale(const la::Vector &displacement) const;
-    /** Find the local stiffness of the rows in a new matrix, which is that of
-     * the law only if it is the first one: a law must not change from one
-     * linearisation to the next. Collective. */
-    void find_row_stiffness(const solve::Stiffness &matrix);
-    /** Length by pressure: inverse mean of the rows' stiffness. */
-    double softness() const;
     /** Make what has been reached the start of the next iteration. */
     void start_from_present();
     void begin_at(const la::Vector &displacement);
@@ -132,7 +179,7 @@ namespace abut::shim
     /** Whether a commit() determines where the next points are made. */
     bool makes_points_at_commits() const
     {
-      return kinematics_info(method.kinematics).points
+      return kinematics_info(input.method.kinematics).points
              == ABUT_CONFIGURATION_COMMITTED;
     }
     /** Pressures and states by the numbers of the rows. */
@@ -143,65 +190,23 @@ namespace abut::shim
     /** Take the rows to this displacement, if they are the same there.
      * Collective. */
     void follow(const la::Vector &displacement);
-    /** Another set of points, by the operator of its rows. */
-    struct RowsElsewhere
-    {
-      Handle<abut_points> points;
-      solve::PointOperator rows;
-      RowSource::SlipReference slip_reference;
-    };
-    /** The rows at this displacement, while the present ones stay. Collective.
-     */
-    RowsElsewhere rows_at(const la::Vector &displacement);
     /** Find the change of the forces of the rows' pressures because rows move.
      * Collective. */
     void find_geometry();
-    /** How gaps change because directions and partners do. Collective. */
-    void find_substitution();
     /** Gaps where the iteration has come to. Collective. */
     void update_gap(const la::Vector &displacement);
-    /** Add the part of the coordinates that stands for the round-off of gaps
-     * and strains at points that move. Not collective. */
-    void add_round_off_of_positions(la::Vector &displacement) const;
     /** See ContactAssembler::evaluate(), with rows of that displacement.
      * Collective. */
     double evaluate_moved(const la::Vector &displacement, la::Vector &forces);
-    /** See ContactAssembler::raise_gaps(). Collective. */
-    bool raise_gaps(const la::Vector &displacement);
-    /** See ContactAssembler::limit_raises(). Collective. */
-    bool limit_raises(la::Vector &displacement);
-    /** Raise and lower gaps by what rows have pressed since; false: no row is
-     * to be changed. Collective. */
-    bool change_raises(const la::Vector &displacement);
-    /** Open the raised rows that still press, if that may be due to the forces
-     * of raised rows only, once; false: it is not. Collective. */
-    bool open_raised_rows(const la::Vector &displacement);
-    /** Sum of pressures in pairs that touched nowhere at first. Collective. */
-    double force_without_touch() const;
-    /** Whether that has stopped before all such rows were open. */
-    bool raises_end_early() const;
-    /** From how far on surfaces are apart for that, length. Collective. */
-    double least_clearance(const la::Vector &displacement) const;
-    /** Whether a row of a normal has a pressure. */
-    bool presses(int row) const;
-    /** Add to the gaps [rows] of some operator what they are raised by. */
-    void add_raises(const solve::PointOperator &rows,
-                    std::vector<double> &gaps) const;
-    /** Data of the iteration that begins, for the solver. */
-    solve::ContactIteration iteration();
     /** Find what an iteration that stopped leaves undetermined. Collective. */
     void record_end();
     /** Let the search reach farther, as far as bodies without supports may
      * have to move. Returns whether it does. Collective. */
     bool widen_search();
     void begin(const solve::Stiffness &matrix, const la::Vector &residual);
-    /** Throws if a matrix is needed. */
-    void check_host() const;
     /** Made once for each mesh. Collective. */
     const solve::NearNullSpace &near_null_space() const;
     void prepare_solver(const solve::Stiffness &matrix);
-    /** Build the preconditioner that was loaded, if there is one. */
-    void restore_preconditioner();
     void push_inside(la::Vector &displacement);
     void next();
     /** Pressures and states reached, or those to start from. */
@@ -218,96 +223,35 @@ namespace abut::shim
     }
     abut_progress progress() const;
     std::vector<std::uint8_t> row_states() const;
-    /** Length that depths are compared with: how far bodies are deformed, or
-     * the membrane is moved. Collective. */
-    double deformation(const la::Vector &displacement) const;
     /** How far a row's pressure and a gap are from the law, length. */
     double law_defect(int row, double gap_there) const;
     const MPI_Comm communicator;
-    Obstacle<dim> obstacle;
-    std::vector<ContactPair<dim>> pairs;
-    bool has_pairs = false; ///< they were given, and may be empty
-    bool axisymmetric = false;
-    MethodParameters method;
-    SearchParameters search;
-    SolverParameters solver_parameters;
-    bool constant_matrix = false;
-    double given_length = 0.; ///< 0: none
-
+    ContactInput<dim> input;
     /** Before all that is made with it, and so destroyed after it. */
     Handle<abut_context> context = create_context();
-
     ContactHost<dim> host;
+
     std::unique_ptr<RowSource> source;
     /** The same object if it makes rows of pairs, else null. */
     SurfaceRows<dim> *surfaces = nullptr;
-    /** The facets of pairs on this mesh, once they are found. */
-    std::shared_ptr<SurfaceExchange<dim>> exchange;
-    CommunicationReport sent_before; ///< on earlier meshes
-    DetectionReport detection;
-    ContactElements elements;
     bool source_is_outdated = true;
     bool has_new_gaps = false; ///< of pairs that are otherwise the same
-    mutable std::optional<solve::NearNullSpace> bodies;
-    std::uint64_t points_mesh = 0; ///< signature of the points' mesh
-    bool has_rows = false;         ///< since reinit(), by detect()
-
-    Handle<abut_points> points; ///< of the last detect()
-    int points_dimension = 0;   ///< unknowns of their nodes
-    Handle<abut_strategy> strategy;
-    solve::PointOperator coefficients; ///< B, by component of the points
-    dealii::types::global_dof_index n_rows = 0;
-
+    SurfaceSearch<dim> surface_search;
+    PresentRows rows;
     NitscheRows<dim> nitsche{context.get()};
+    MovingRows moving;
+    GapRaises<dim> raises{*this};
+    ContactScales<dim> scales{*this};
+    RowSystem system;
 
     ContactHistory history{context.get(), communicator};
-    StartValues start;
-    std::uint64_t rows_mesh = 0; ///< signature of the rows' mesh; 0: no rows
-    std::vector<PlacedRow> placed_rows; ///< of the rows
-    ContactHistory::Penalty penalty;    ///< of this iteration
-    la::Vector start_displacement;
-    MovingRows moving;
-    std::vector<double> gap;   ///< [rows] at the current displacement
-    bool has_friction = false; ///< some pair has, on all ranks
+    ContactHistory::Penalty penalty; ///< of this iteration
     CommittedState<dim> committed;
-    RowSource::SlipReference slip_reference;
-    GapRaises raises;
-    /** [rows] place of a row's own derivatives in those of the request. */
-    std::vector<std::int64_t> diagonal;
-    /** Compliance of each unknown of this rank, in the matrix that penalties
-     * are multiples of; empty: none yet. */
-    la::Vector law_compliance;
-    /** [rows] pressure per length, > 0: of each row in the last matrix taken,
-     * for solvers; and in that of law_compliance, as the law has it, by patches
-     * of surface. */
-    std::vector<double> row_stiffness, stiffness;
-    double smallest_residual = 0.;
-    /** Sums of magnitudes at nodes: of the present solve, and the largest of
-     * those that ended in a committed state. */
-    double present_load = 0., committed_load = 0.;
-    /** Rigid motions that the last iteration has left undetermined. */
-    std::vector<solve::FreeMotion> undetermined;
-    /** Rigid motions of bodies where points were last taken to. */
-    std::vector<BodyMotion> followed_motions;
-    /** How far rigid motions are foreseen to go, for searches. */
-    double foreseen_motion = 0.;
-    double iteration_tolerance = 0.; ///< of linear systems; 0: the method's
-    bool has_new_matrix = false;     ///< since the last solve
-
-    solve::LocalElimination local; ///< of rows that are added to a matrix
-    /** State that a preconditioner to be built again was built for, with the
-     * signature of its rows; empty: none. */
-    std::vector<solve::PreconditionerState> kept_preconditioner;
-    std::uint64_t kept_rows = 0;
-
-    /** Null until the first solve with the present rows. */
-    std::unique_ptr<solve::RowSolver> solver;
-    bool solver_has_matrix = true;    ///< or is one for hosts without
-    std::uint64_t rows_signature = 0; ///< of the rows of the last detect()
+    StartValues start;
+    la::Vector start_displacement;
+    Handle<abut_strategy> strategy;
     bool is_started = false;
-    bool was_added = false; ///< by add(): the host solves
     abut_request request = {};
-    LinearReport report;
 
     const std::unique_ptr<ContactResults<dim>> results = make_results(*this);
     const std::unique_ptr<ContactChecks<dim>> checks = make_checks(*this);

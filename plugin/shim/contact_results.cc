@@ -22,14 +22,14 @@ namespace abut::shim
       {
         i.host.check_unchanged("measures()");
         ContactMeasures result;
-        result.n_rows = i.n_rows;
-        result.n_own_rows = i.coefficients.n_rows();
+        result.n_rows = i.rows.n_rows;
+        result.n_own_rows = i.rows.coefficients.n_rows();
         const abut_progress progress = i.progress();
         result.n_active = progress.n_active;
         const double penalty = penalty_of(progress);
         // Force, sums of p g and p, squares of residuals; penetrations.
         double sums[4] = {0., 0., 0., 0.}, largest[2] = {0., 0.};
-        for (int row = 0; row < i.coefficients.n_rows(); ++row)
+        for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
           measure(row, penalty, sums, largest);
         MPI::sum(sums, i.communicator, sums);
         MPI::max(largest, i.communicator, largest);
@@ -38,9 +38,10 @@ namespace abut::shim
         result.complementarity_error = std::sqrt(sums[3]);
         result.penetration = largest[0];
         if (penalty > 0.)
-          result.allowed_penetration = largest[1]
-                                       + i.method.options.allowed_penetration
-                                             * i.method.options.length_scale;
+          result.allowed_penetration =
+              largest[1]
+              + i.input.method.options.allowed_penetration
+                    * i.input.method.options.length_scale;
         return result;
       }
 
@@ -50,7 +51,7 @@ namespace abut::shim
         if (i.surfaces == nullptr)
           return {};
         return i.surfaces->examination().results(
-            i.row_pressures().data(), i.gap.data(), i.row_states().data());
+            i.row_pressures().data(), i.rows.gap.data(), i.row_states().data());
       }
 
       la::Vector pressure() const override
@@ -62,18 +63,19 @@ namespace abut::shim
       la::Vector gap() const override
       {
         i.host.check_unchanged("gap()");
-        return i.present_source().gap(i.gap.data());
+        return i.present_source().gap(i.rows.gap.data());
       }
 
       la::Vector slip() const override
       {
         i.host.check_unchanged("slip()");
         // The field has p n - tau, by the numbers of the rows.
-        std::vector<double> values(i.coefficients.n_rows(), 0.);
+        std::vector<double> values(i.rows.coefficients.n_rows(), 0.);
         const std::vector<std::uint8_t> states = i.row_states();
-        for (int row = 0; row < i.coefficients.n_rows(); ++row)
-          if (i.coefficients.is_tangent(row) && states[row] != ABUT_STATE_OPEN)
-            values[row] = -i.gap[row];
+        for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+          if (i.rows.coefficients.is_tangent(row)
+              && states[row] != ABUT_STATE_OPEN)
+            values[row] = -i.rows.gap[row];
         return i.present_source().pressure(values.data());
       }
 
@@ -97,8 +99,9 @@ namespace abut::shim
         if (i.surfaces == nullptr)
           return;
         std::vector<double> pressures = i.row_pressures();
-        for (int row = 0; row < i.coefficients.n_rows(); ++row)
-          if (part == ForcePart::of_pressures && i.coefficients.is_tangent(row))
+        for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+          if (part == ForcePart::of_pressures
+              && i.rows.coefficients.is_tangent(row))
             pressures[row] = 0.;
         la::Vector all(forces);
         all = 0.;
@@ -120,8 +123,8 @@ namespace abut::shim
         i.check_rows("candidate_nodes()");
         const dealii::IndexSet &owned = i.host.owned();
         la::Vector count(owned, i.communicator);
-        const std::vector<std::uint8_t> all(i.coefficients.n_rows(), 1);
-        i.coefficients.add_counts(all.data(), count);
+        const std::vector<std::uint8_t> all(i.rows.coefficients.n_rows(), 1);
+        i.rows.coefficients.add_counts(all.data(), count);
         dealii::IndexSet result(owned.size());
         for (int k = 0; k < la::n_owned(count); ++k)
           if (la::data(count)[k] > 0.)
@@ -132,7 +135,10 @@ namespace abut::shim
 
       ContactEffort effort() const override
       {
-        ContactEffort result{i.report, i.detection, {}, i.sent_before};
+        ContactEffort result{i.system.report,
+                             i.surface_search.detection,
+                             {},
+                             i.surface_search.sent_before};
         for (std::uint64_t *count :
              {&result.detection.searches, &result.detection.reuses,
               &result.detection.rebuilds, &result.detection.refits,
@@ -142,15 +148,17 @@ namespace abut::shim
             MPI::max(result.detection.seconds, i.communicator);
         if (i.surfaces != nullptr)
           result.points = {i.surfaces->n_finds(), i.surfaces->n_kept()};
-        if (i.surfaces != nullptr && i.has_rows)
-          i.elements.compare(i.surfaces->points().contact_elements(),
-                             result.detection, i.communicator);
+        if (i.surfaces != nullptr && i.rows.are_found)
+          i.surface_search.elements.compare(
+              i.surfaces->points().contact_elements(), result.detection,
+              i.communicator);
         CommunicationReport &sent = result.communication;
         sent.messages += i.history.sent().messages;
         sent.bytes += i.history.sent().bytes;
-        if (i.exchange == nullptr)
+        if (i.surface_search.exchange == nullptr)
           return result;
-        const CommunicationReport now = i.exchange->communication();
+        const CommunicationReport now =
+            i.surface_search.exchange->communication();
         sent.messages += now.messages;
         sent.bytes += now.bytes;
         sent.gathered_bytes += now.gathered_bytes;
@@ -163,7 +171,7 @@ namespace abut::shim
       /** By which pressures let bodies into each other; 0: by none. */
       double penalty_of(const abut_progress &progress) const
       {
-        const abut_law *law = i.method.options.law;
+        const abut_law *law = i.input.method.options.law;
         // Multipliers shared by the nodes close gaps of points in the mean
         // only; what is left of them is a penalty.
         const bool is_closed =
@@ -178,10 +186,10 @@ namespace abut::shim
       void measure(const int row, const double penalty, double (&sums)[4],
                    double (&largest)[2]) const
       {
-        const auto &rows = i.coefficients;
+        const auto &rows = i.rows.coefficients;
         const bool is_tie = rows.bilateral()[row] != 0,
                    is_tangent = rows.is_tangent(row);
-        const double p = i.row_pressure(row), g = i.gap[row],
+        const double p = i.row_pressure(row), g = i.rows.gap[row],
                      weight = rows.weights()[row];
         if (i.surfaces == nullptr)
           sums[0] += weight * p * rows.coefficient(rows.begin(row));
@@ -191,7 +199,7 @@ namespace abut::shim
         {
           // Points that stick must not slip, and the forces of points that slip
           // are exact.
-          const double s = i.stiffness[row];
+          const double s = i.scales.stiffness[row];
           const bool sticks =
               is_tangent && i.request.state[row] == ABUT_STATE_CLOSED;
           const double residual = is_tie || sticks ? g
@@ -205,7 +213,8 @@ namespace abut::shim
         sums[2] += weight * std::abs(p);
         largest[0] = std::max(largest[0], is_tie ? std::abs(g) : -g);
         if (penalty > 0. && !is_tie)
-          largest[1] = std::max(largest[1], p / (penalty * i.stiffness[row]));
+          largest[1] =
+              std::max(largest[1], p / (penalty * i.scales.stiffness[row]));
       }
 
       const ContactProblem<dim> &i;

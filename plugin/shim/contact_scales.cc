@@ -3,12 +3,13 @@
 #include "contact_problem.h"
 
 #include "deformation.h"
+#include "solve/row_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace abut
+namespace abut::shim
 {
   namespace MPI = dealii::Utilities::MPI;
 
@@ -20,29 +21,29 @@ namespace abut
   } // namespace
 
   template <int dim>
-  void shim::ContactProblem<dim>::set_scales(const solve::Stiffness &matrix,
-                                             const la::Vector &residual)
+  void ContactScales<dim>::set(const solve::Stiffness &matrix,
+                               const la::Vector &residual)
   {
     // Internal forces at the start measure the load when the residual is
     // small because the start is good.
     la::Vector internal(residual);
-    host.reference_or(matrix).vmult(internal, start_displacement);
-    host.constraints().set_zero(internal);
-    smallest_residual = method.options.final_linear_tolerance
+    i.host.reference_or(matrix).vmult(internal, i.start_displacement);
+    i.host.constraints().set_zero(internal);
+    smallest_residual = i.input.method.options.final_linear_tolerance
                         * std::max(residual.l2_norm(), internal.l2_norm());
 
     double weight = 0.;
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-      weight += coefficients.weights()[i];
-    weight = MPI::sum(weight, communicator);
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+      weight += i.rows.coefficients.weights()[row];
+    weight = MPI::sum(weight, i.communicator);
     const double load = std::max(residual.l1_norm(), internal.l1_norm());
     // The stiffness of a rotated body does not measure its displacement.
-    present_load = moves() ? residual.l1_norm() : load;
-    abut_strategy_options &options = method.options;
+    present_load = i.moves() ? residual.l1_norm() : load;
+    abut_strategy_options &options = i.input.method.options;
     options.pressure_scale =
         load > least_scale && weight > 0. ? load / weight : 1.;
     options.length_scale = length_scale();
-    if (surfaces == nullptr || weight <= 0.)
+    if (i.surfaces == nullptr || weight <= 0.)
       return;
     // Bodies without load are pressed by their overlap. Surfaces that touch
     // have no gaps, or such of round-off, which measure nothing: then it is
@@ -54,88 +55,91 @@ namespace abut
         std::max(measured_length(), options.pressure_scale * soft);
     if (load <= least_scale)
       options.pressure_scale = options.length_scale / soft;
-    else if (given_length == 0. && start_displacement.linfty_norm() == 0.
+    else if (given_length == 0. && i.start_displacement.linfty_norm() == 0.
              && length > least)
       options.length_scale = length;
   }
 
-  template <int dim> double shim::ContactProblem<dim>::softness() const
+  template <int dim> double ContactScales<dim>::softness() const
   {
     double sums[2] = {0., 0.};
-    for (int i = 0; i < coefficients.n_rows(); ++i)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
     {
-      sums[0] += coefficients.weights()[i];
-      sums[1] += coefficients.weights()[i] * stiffness[i];
+      sums[0] += i.rows.coefficients.weights()[row];
+      sums[1] += i.rows.coefficients.weights()[row] * stiffness[row];
     }
-    MPI::sum(sums, communicator, sums);
+    MPI::sum(sums, i.communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
   template <int dim>
-  double
-  shim::ContactProblem<dim>::length_scale(const la::Vector &displacement) const
+  double ContactScales<dim>::length_scale(const la::Vector &displacement) const
   {
     if (given_length > 0.)
       return given_length;
-    if (surfaces == nullptr)
+    if (i.surfaces == nullptr)
       return displacement.linfty_norm();
-    return std::min(shim::largest_displacement(near_null_space(), displacement,
-                                               communicator),
-                    surfaces->set().facet_size());
+    return std::min(
+        largest_displacement(i.near_null_space(), displacement, i.communicator),
+        i.surfaces->set().facet_size());
   }
 
-  template <int dim> double shim::ContactProblem<dim>::length_scale() const
+  template <int dim> double ContactScales<dim>::length_scale() const
   {
     const double length = measured_length();
     return length > 0. ? length : unmeasured_length();
   }
 
-  template <int dim> double shim::ContactProblem<dim>::unmeasured_length() const
+  template <int dim> double ContactScales<dim>::unmeasured_length() const
   {
     const double facet =
-        surfaces == nullptr ? 0. : surfaces->set().facet_size();
+        i.surfaces == nullptr ? 0. : i.surfaces->set().facet_size();
     return facet > 0. ? facet : 1.; // any: there is no row, or none has a gap
   }
 
-  template <int dim> double shim::ContactProblem<dim>::measured_length() const
+  template <int dim> double ContactScales<dim>::measured_length() const
   {
-    const double way = length_scale(start_displacement);
+    const double way = length_scale(i.start_displacement);
     if (way > least_scale)
       return way;
     // The harmonic mean of the gaps: parts of an obstacle that are out of
     // reach do not count.
     double sums[2] = {0., 0.};
-    for (int i = 0; i < coefficients.n_rows(); ++i)
-      if (gap[i] != 0.)
+    for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
+      if (i.rows.gap[row] != 0.)
       {
-        sums[0] += coefficients.weights()[i];
-        sums[1] += coefficients.weights()[i] / std::abs(gap[i]);
+        sums[0] += i.rows.coefficients.weights()[row];
+        sums[1] +=
+            i.rows.coefficients.weights()[row] / std::abs(i.rows.gap[row]);
       }
-    MPI::sum(sums, communicator, sums);
+    MPI::sum(sums, i.communicator, sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
   template <int dim>
-  double
-  shim::ContactProblem<dim>::deformation(const la::Vector &displacement) const
+  double ContactScales<dim>::deformation(const la::Vector &displacement) const
   {
-    return surfaces == nullptr ? displacement.linfty_norm()
-                               : shim::deformation(near_null_space(),
-                                                   displacement, communicator);
+    return i.surfaces == nullptr
+               ? displacement.linfty_norm()
+               : shim::deformation(i.near_null_space(), displacement,
+                                   i.communicator);
   }
 
-#define ABUT_INSTANTIATE(dim)                                                  \
-  template void shim::ContactProblem<dim>::set_scales(                         \
-      const solve::Stiffness &, const la::Vector &);                           \
-  template double shim::ContactProblem<dim>::deformation(const la::Vector &)   \
-      const;                                                                   \
-  template double shim::ContactProblem<dim>::softness() const;                 \
-  template double shim::ContactProblem<dim>::length_scale(const la::Vector &)  \
-      const;                                                                   \
-  template double shim::ContactProblem<dim>::length_scale() const;             \
-  template double shim::ContactProblem<dim>::unmeasured_length() const;        \
-  template double shim::ContactProblem<dim>::measured_length() const;
+  template <int dim>
+  void ContactScales<dim>::find_compliance(const solve::Stiffness &matrix)
+  {
+    la::Vector compliance = solve::compliance(matrix);
+    row_stiffness = solve::row_stiffness(compliance, i.rows.coefficients);
+    if (law_compliance.size() == 0)
+    {
+      if (i.host.reference())
+        compliance = solve::compliance(*i.host.reference());
+      law_compliance.swap(compliance);
+      if (i.moves()) // directions turn, and the law must not
+        i.surfaces->fields().make_isotropic(law_compliance);
+    }
+  }
 
-  ABUT_INSTANTIATE(2)
-  ABUT_INSTANTIATE(3)
-} // namespace abut
+  template class ContactScales<2>;
+  template class ContactScales<3>;
+} // namespace abut::shim

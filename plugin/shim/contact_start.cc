@@ -23,22 +23,24 @@ namespace abut
     abut_progress progress = {};
     abut_strategy_progress(strategy.get(), &progress);
     penalty.reached = progress.penalty;
-    history.record(rows_mesh, row_numbers(), placed_rows, row_pressures(),
+    history.record(rows.mesh, row_numbers(), rows.placed, row_pressures(),
                    row_states(), penalty);
   }
 
   template <int dim>
   std::vector<std::int64_t> shim::ContactProblem<dim>::row_numbers() const
   {
-    return {coefficients.ids(), coefficients.ids() + coefficients.n_rows()};
+    return {rows.coefficients.ids(),
+            rows.coefficients.ids() + rows.coefficients.n_rows()};
   }
 
   template <int dim>
   shim::StartRows shim::ContactProblem<dim>::start_rows() const
   {
     // A law of the user's may pull.
-    return {*source, coefficients, placed_rows, rows_mesh,
-            abut_law_find(method.options.law->name) != method.options.law};
+    return {*source, rows.coefficients, rows.placed, rows.mesh,
+            abut_law_find(input.method.options.law->name)
+                != input.method.options.law};
   }
 
   template <int dim>
@@ -56,16 +58,16 @@ namespace abut
   template <int dim> void shim::ContactProblem<dim>::start_from_present()
   {
     std::vector<std::uint8_t> state;
-    if (!abut_law_is_interior(method.options.law))
+    if (!abut_law_is_interior(input.method.options.law))
       state = row_states();
     start.go_on(start_rows(), row_pressures(), std::move(state));
   }
 
   template <int dim> void shim::ContactProblem<dim>::abandon_iteration()
   {
-    is_started = was_added = false;
+    is_started = system.was_added = false;
     start.abandon();
-    iteration_tolerance = 0.;
+    system.tolerance = 0.;
   }
 
   template <int dim> void shim::ContactProblem<dim>::return_to_history()
@@ -89,23 +91,25 @@ namespace abut
         i.host.vector("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
-    i.committed_load = std::max(i.committed_load, i.present_load);
-    if (i.surfaces != nullptr && i.has_rows)
-      i.elements.commit(i.surfaces->points().contact_elements(),
-                        i.communicator);
+    i.scales.committed_load =
+        std::max(i.scales.committed_load, i.scales.present_load);
+    if (i.surfaces != nullptr && i.rows.are_found)
+      i.surface_search.elements.commit(i.surfaces->points().contact_elements(),
+                                       i.communicator);
     if (i.surfaces != nullptr)
       i.surfaces->set().record_commit(displacement);
     // Pairs with friction may be out of reach of each other as yet. Pairs that
     // reach each other later need a reference of slips.
-    const bool is_wanted = i.makes_points_at_commits()
-                           || std::any_of(i.pairs.begin(), i.pairs.end(),
-                                          [](const ContactPair<dim> &pair)
-                                          { return pair.friction != nullptr; });
+    const bool is_wanted =
+        i.makes_points_at_commits()
+        || std::any_of(i.input.pairs.begin(), i.input.pairs.end(),
+                       [](const ContactPair<dim> &pair)
+                       { return pair.friction != nullptr; });
     i.committed.record(is_wanted ? displacement : la::Vector(), is_wanted,
-                       i.pairs);
+                       i.input.pairs);
     if (!is_wanted)
       return;
-    if (i.has_rows)
+    if (i.rows.are_found)
       i.find_slip_reference();
   }
 

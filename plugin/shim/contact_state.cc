@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The state that a solve begins with, on other meshes and in other runs. Of a
-// preconditioner it is what it was built for.
+// The state that a solve begins with, on other meshes and in other runs. A
+// preconditioner is saved as the data that it was built for.
 #include "agree.h"
 #include "contact_problem.h"
 
@@ -33,20 +33,20 @@ namespace abut::shim
             i.host.vector("set_committed()", "displacement", given);
         if (i.surfaces != nullptr)
           i.surfaces->set().record_commit(displacement);
-        i.committed.record(displacement, true, i.pairs);
-        if (i.has_rows)
+        i.committed.record(displacement, true, i.input.pairs);
+        if (i.rows.are_found)
           i.find_slip_reference();
       }
 
       void save(std::ostream &stream) override
       {
         i.history.save(stream);
-        i.elements.save(stream, i.communicator);
+        i.surface_search.elements.save(stream, i.communicator);
         if (i.surfaces != nullptr)
-          i.exchange->self_contact().save(stream);
+          i.surface_search.exchange->self_contact().save(stream);
         // Who loads has no preconditioner, nor points that were made earlier:
         // then neither should this run.
-        i.solver.reset();
+        i.system.solver.reset();
         if (i.surfaces != nullptr)
           i.surfaces->renew_points();
       }
@@ -65,7 +65,7 @@ namespace abut::shim
                          if (i.surfaces != nullptr)
                            i.surfaces->load_sides(stream);
                        });
-        i.elements = std::move(elements);
+        i.surface_search.elements = std::move(elements);
         // Displacements are the host's to keep: that of the commit() must come
         // from there, or slips would be measured from the reference
         // configuration.
@@ -78,10 +78,10 @@ namespace abut::shim
       void save_preconditioner(std::ostream &stream) const override
       {
         std::vector<solve::PreconditionerState> state;
-        if (i.solver != nullptr)
-          state = i.solver->state();
+        if (i.system.solver != nullptr)
+          state = i.system.solver->state();
         boost::archive::binary_oarchive archive(stream);
-        archive << i.rows_signature << state;
+        archive << i.rows.signature << state;
       }
 
       void load_preconditioner(std::istream &stream) override
@@ -93,7 +93,7 @@ namespace abut::shim
               try
               {
                 boost::archive::binary_iarchive archive(stream);
-                archive >> i.kept_rows >> i.kept_preconditioner;
+                archive >> i.system.kept_rows >> i.system.kept_preconditioner;
               }
               catch (const std::exception &error)
               {

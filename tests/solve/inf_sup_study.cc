@@ -10,7 +10,7 @@
 
 #include "app/scenes/loaded_scene.h"
 #include "inf_sup.h"
-#include "shim/contact_implementation.h"
+#include "shim/contact_problem.h"
 
 #include <iostream>
 
@@ -24,8 +24,8 @@ namespace abut
                           const la::Matrix &stiffness)
     {
       const auto &i = *contact.implementation;
-      return solve::inf_sup_constant(stiffness, i.coefficients,
-                                     i.solver_parameters, i.near_null_space())
+      return solve::inf_sup_constant(stiffness, i.rows.coefficients,
+                                     i.input.solver, i.near_null_space())
           .constant;
     }
   };

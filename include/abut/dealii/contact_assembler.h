@@ -188,7 +188,7 @@ namespace abut
     /** Checks of the problem and of its answer, likewise. */
     virtual const ContactChecks<dim> &checks() const;
 
-    /** What a solve begins with, on other meshes and in other runs, likewise.
+    /** Start of a solve, on other meshes and in other runs, likewise.
      */
     virtual ContactState &state();
 

@@ -55,11 +55,11 @@ namespace abut
     /** sum w p B: those of all rows at free unknowns. In equilibrium they are
      * the residual R there. Not for nitsche. */
     at_free,
-    /** Those at unknowns that are prescribed, hanging nodes by their parents:
+    /** Forces at unknowns that are prescribed, hanging nodes by their parents:
      * the rest of a support's reaction balances all other loads on the body.
      * Nothing for membranes; for nitsche that of its pressures. */
     at_prescribed,
-    /** Those of pressures at all unknowns, without friction; the rest as
+    /** Forces of pressures at all unknowns, without friction; the rest as
      * before. */
     of_pressures
   };
