@@ -36,7 +36,7 @@ namespace abut::shim
              == dealii::ReferenceCells::get_hypercube<dim>();
     }
 
-    /** What one element cannot be. */
+    /** Why there is no contact with an element; empty: there is. */
     template <int dim>
     Message element_refusal(const dealii::Mapping<dim> &mapping,
                             const dealii::DoFHandler<dim> &dof_handler,
@@ -65,7 +65,7 @@ namespace abut::shim
       return "";
     }
 
-    /** What the elements of several kinds of cells cannot be. */
+    /** The same of several elements together. */
     template <int dim>
     Message collection_refusal(const dealii::DoFHandler<dim> &dof_handler)
     {

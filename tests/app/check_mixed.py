@@ -121,6 +121,28 @@ def check_large_strain():
             p.close(summary[key], SVK, 1e-9, f"{key}, degree {degree}")
 
 
+def check_rings():
+    """Lame's displacement (prm/press-fit.prm), one ring of triangles."""
+    for number, n in ((1, 4), (2, 3)):
+        mesh = box((2, n), (number, 0.), (number + 1, 0.5 * math.pi), 0.2,
+                   number)
+        mesh.mapped(lambda r, angle: (r * math.cos(angle), r * math.sin(angle)))
+        # 0: inner, 1: outer circle, 2: x = 0, 3: y = 0
+        ids = {0: 0, 1: 1, 2: 3, 3: 2}
+        mesh.faces = [(ids[id_], face) for id_, face in mesh.faces]
+        p.write("ring.msh", mesh.gmsh())
+        errors = []
+        for level in (1, 2, 3):
+            summary, _ = p.solve_with("press-fit.prm", {
+                f"Body {number}/Mesh/File": p.folder / "ring.msh",
+                f"Body {number}/Mesh/Arguments": "",
+                f"Body {number}/Mesh/Curved sides": "0, 1: circle: 0, 0",
+                "Refinement/Level": level})
+            errors.append(abs(summary["point_3"][0] / 0.005625 - 1.))
+        p.expect(errors[1] < 0.4 * errors[0] and errors[2] < 0.4 * errors[1]
+                 and errors[2] < 1e-3, f"rings: {errors}")
+
+
 def slider(dim, simplices, *more):
     """The upper box, pressed down and then drawn sideways."""
     drawn = ", ".join(["0.05*max(0, t - 1)"] + ["0"] * (dim - 2)
@@ -389,6 +411,7 @@ def check_refusals():
 
 check_patch()
 check_large_strain()
+check_rings()
 check_restart()
 check_files()
 check_levels()

@@ -15,6 +15,7 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/tria_description.h>
 #include <deal.II/hp/fe_collection.h>
 
 #include <iostream>

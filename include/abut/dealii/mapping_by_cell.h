@@ -19,7 +19,7 @@ namespace abut
 {
   /** Gives each cell the mapping of a collection that is for cells of its
    * kind: quadrilaterals and triangles, or hexahedra and tetrahedra. With it
-   * hp::FECollection is possible wherever a mapping is asked for:
+   * hp::FECollection is possible wherever deal.II takes one mapping:
    *
    *     const dealii::hp::MappingCollection<dim> mappings(
    *       dealii::MappingQ<dim>(1),

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "values_along_mesh.h"
 
-#include "shim/by_element.h"
-
 #include <abut/dealii/versions.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,7 +24,8 @@ namespace abut::app
         const auto &fe = cell->get_fe();
         const std::vector<std::size_t> nodes =
             nodes_along_mesh<dim>(cell, fe.degree);
-        shim::get_dofs(cell, dofs);
+        dofs.resize(fe.n_dofs_per_cell());
+        cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
           const auto [component, node] = fe.system_to_component_index(i);
