@@ -103,10 +103,13 @@ namespace abut::shim
     if (way > least_scale)
       return way;
     // The harmonic mean of the gaps: parts of an obstacle that are out of
-    // reach do not count.
+    // reach do not count, nor those of surfaces that touch but for round-off.
+    constexpr double round_off = 1e-10;
+    const double least =
+        i.surfaces == nullptr ? 0. : round_off * unmeasured_length();
     double sums[2] = {0., 0.};
     for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
-      if (i.rows.gap[row] != 0.)
+      if (std::abs(i.rows.gap[row]) > least)
       {
         sums[0] += i.rows.coefficients.weights()[row];
         sums[1] +=
