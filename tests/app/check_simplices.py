@@ -10,7 +10,7 @@ import time
 
 from block_scene import section, solid
 from program import Program, set_words
-from simplices import box
+from simplices import Mesh, box
 from vtu import pieces
 
 p = Program()
@@ -425,8 +425,53 @@ def check_surfaces():
                    "Primary/File", "tetrahedra")
 
 
+def slotted():
+    """The unit cube with a slot of width 0.01 from x = 1 to 1/4; 1 and 2: its
+    lower and upper face, 4: bottom, 5: top."""
+    height = (0., 0.25, 0.495, 0.505, 0.75, 1.)
+    mesh = box((4, 4, 5), (0, 0, 0), (1, 1, 5))
+    mesh.mapped(lambda x, y, z: (x, y, height[round(z)]))
+    cells = []
+    for cell in mesh.cells:
+        x, _, z = [sum(c) / 4 for c in zip(*(mesh.vertices[v] for v in cell))]
+        if x < 0.25 or not 0.495 < z < 0.505:
+            cells.append(cell)
+    used = sorted({v for cell in cells for v in cell})
+    index = {v: k for k, v in enumerate(used)}
+    ids = {0.495: 1, 0.505: 2, 0.: 4, 1.: 5}
+
+    def id_of(corners):
+        low, *others = (x[2] for x in corners)
+        return ids.get(low, 0) if all(z == low for z in others) else 0
+    return Mesh(3, [mesh.vertices[v] for v in used],
+                [[index[v] for v in cell] for cell in cells], id_of)
+
+
+def check_slot():
+    """Both faces of a slot as one surface and as two."""
+    mesh = slotted()
+    p.write("slot-2.msh", mesh.gmsh())
+    mesh.faces = [(1 if id_ == 2 else id_, face) for id_, face in mesh.faces]
+    p.write("slot-1.msh", mesh.gmsh())
+    p.write("slot.prm", solid(
+        3, level(0), body(1, "slot-1.msh", "Support = 4: 0, 0, 0",
+                          "Pressure = 5: 20"),
+        section("Pair 1", "Secondary = 1: 1", "Primary = 1: 1",
+                "Reach = 0.02"), bodies=1))
+    for degree, sliding in itertools.product((1, 2), ("small", "large")):
+        settings = {"Solid/Degree": degree, "Method/Sliding": sliding}
+        one = run("slot.prm", settings)
+        two = run("slot.prm", {**settings, "Body 1/Mesh/File": "slot-2.msh",
+                               "Pair 1/Primary": "1: 2"})
+        what = f"slot, degree {degree}, {sliding}"
+        p.expect(one["pair_1_active"] == two["pair_1_active"] > 10, what)
+        for key in ("contact_force", "pair_1_pressure"):
+            p.close(one[key], two[key], 1e-10, f"{what}: {key}")
+
+
 check_patch()
 check_large_strain()
+check_slot()
 check_levels()
 check_bisection()
 check_estimate()
