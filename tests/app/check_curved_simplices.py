@@ -3,6 +3,10 @@
 patch test, levels, tubes under pressure and in contact against Lame's
 formulas, facets of degree 2 of obstacles, degree 1."""
 import math
+import shutil
+import signal
+import subprocess
+import time
 
 from block_scene import section
 from program import Program, set_words
@@ -156,8 +160,36 @@ def check_degree_1():
                  f"{name}: {result.returncode} {result.stderr}")
 
 
+def check_restart():
+    """The connecting rod, stopped and resumed on other numbers of ranks."""
+    for kind in ("prm", "msh"):
+        name = f"connecting-rod.{kind}"
+        shutil.copy(p.source / "prm" / name, p.folder / name)
+    p.write("rod.prm", (p.folder / "connecting-rod.prm").read_text().replace(
+        "-5000/", "-t*5000/") + section("Load steps", "Steps = 4")
+        + section("Checkpoint", "Every steps = 1"))
+    whole = run("rod.prm")
+    for ranks in (2, 3):
+        shutil.rmtree(p.folder / "out")
+        process = subprocess.Popen(
+            [p.abut, "run", "rod.prm", "--output", "out", "--quiet"],
+            cwd=p.folder)
+        while process.poll() is None and not any(
+                (p.folder / f"out/checkpoint.{n}").exists() for n in (2, 3)):
+            time.sleep(0.005)
+        process.send_signal(signal.SIGTERM)
+        process.wait()
+        p.expect(process.returncode == 4, f"stopped: {process.returncode}")
+        resumed = p.expect_run(p.call("run", "rod.prm", "--output", "out",
+                                      "--quiet", "--resume", ranks=ranks), 0)
+        for a, b in zip(whole["pair_1_force"], resumed["pair_1_force"]):
+            p.expect(abs(a - b) < 1e-9 * whole["pair_1_force"][0],
+                     f"resumed on {ranks} ranks: {b} is not {a}")
+
+
 check_volumes()
 check_patch()
+check_restart()
 check_tube()
 check_contact()
 check_degree_1()

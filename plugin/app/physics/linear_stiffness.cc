@@ -18,16 +18,17 @@ namespace abut::app
 {
   namespace
   {
-    template <int dim> class RecoveredGradients
+    template <int dim> class RecoveredStrains
     {
     public:
-      RecoveredGradients(const dealii::Mapping<dim> &mapping,
-                         const dealii::DoFHandler<dim> &dof_handler,
-                         const la::Vector &displacement,
-                         const Materials<dim> &materials)
+      RecoveredStrains(const dealii::Mapping<dim> &mapping,
+                       const dealii::DoFHandler<dim> &dof_handler,
+                       const la::Vector &displacement,
+                       const Materials<dim> &materials, const bool large_strain)
           : dof_handler(dof_handler),
             displacement(displacement),
             materials(materials),
+            large_strain(large_strain),
             points(mapping, simplex_element(dof_handler),
                    shim::gauss(simplex_element(dof_handler), 2),
                    dealii::update_values | dealii::update_gradients
@@ -50,7 +51,8 @@ namespace abut::app
             {
               for (const auto node : means.nodes(cell))
                 for (unsigned int q = 0; q < gradient.size(); ++q)
-                  means.add(node, points.JxW(q), components(gradient[q]));
+                  means.add(node, points.JxW(q),
+                            components(strain(gradient[q])));
             });
         std::vector<la::Vector> recovered;
         for (const la::Vector &mean : means.means())
@@ -65,7 +67,7 @@ namespace abut::app
               const auto &nodes = means.nodes(cell);
               for (unsigned int q = 0; q < gradient.size(); ++q)
               {
-                dealii::Tensor<2, dim> difference(-gradient[q]);
+                dealii::Tensor<2, dim> difference(-strain(gradient[q]));
                 for (unsigned int v = 0; v < nodes.size(); ++v)
                   for (unsigned int c = 0; c < recovered.size(); ++c)
                     difference[c / dim][c % dim] +=
@@ -91,11 +93,22 @@ namespace abut::app
       }
 
       static std::vector<double>
-      components(const dealii::Tensor<2, dim> &gradient)
+      components(const dealii::Tensor<2, dim> &strain)
       {
         std::vector<double> result;
         for (unsigned int c = 0; c < dim * dim; ++c)
-          result.push_back(gradient[c / dim][c % dim]);
+          result.push_back(strain[c / dim][c % dim]);
+        return result;
+      }
+
+      /** Small strain or Green's. */
+      dealii::Tensor<2, dim>
+      strain(const dealii::Tensor<2, dim> &gradient) const
+      {
+        dealii::Tensor<2, dim> result =
+            0.5 * (gradient + dealii::transpose(gradient));
+        if (large_strain)
+          result += 0.5 * (dealii::transpose(gradient) * gradient);
         return result;
       }
 
@@ -118,6 +131,7 @@ namespace abut::app
       const dealii::DoFHandler<dim> &dof_handler;
       const la::Vector &displacement;
       const Materials<dim> &materials;
+      const bool large_strain;
       dealii::FEValues<dim> points;
       dealii::DoFHandler<dim> scalar;
       std::vector<dealii::Tensor<1, dim>> u;
@@ -129,10 +143,12 @@ namespace abut::app
   double linear_stiffness_error(const dealii::Mapping<dim> &mapping,
                                 const dealii::DoFHandler<dim> &dof_handler,
                                 const la::Vector &displacement,
-                                const Materials<dim> &materials)
+                                const Materials<dim> &materials,
+                                const bool large_strain)
   {
     const std::array<double, 2> energies =
-        RecoveredGradients<dim>(mapping, dof_handler, displacement, materials)
+        RecoveredStrains<dim>(mapping, dof_handler, displacement, materials,
+                              large_strain)
             .energies();
     const MPI_Comm communicator = versions::communicator(dof_handler);
     const double error = dealii::Utilities::MPI::sum(energies[0], communicator),
@@ -143,9 +159,9 @@ namespace abut::app
   template double linear_stiffness_error(const dealii::Mapping<2> &,
                                          const dealii::DoFHandler<2> &,
                                          const la::Vector &,
-                                         const Materials<2> &);
+                                         const Materials<2> &, bool);
   template double linear_stiffness_error(const dealii::Mapping<3> &,
                                          const dealii::DoFHandler<3> &,
                                          const la::Vector &,
-                                         const Materials<3> &);
+                                         const Materials<3> &, bool);
 } // namespace abut::app

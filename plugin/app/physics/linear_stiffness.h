@@ -14,15 +14,18 @@ namespace abut::app
   /** Estimate of the squared error in energy norm of linear triangles or
    * tetrahedra, as a part of the squared norm of the solution, in [0, 1): under
    * loads the part of the strain energy, and so of displacements, that their
-   * stiffness takes away. Recovered displacement gradients are means at
-   * vertices of those of cells, weighted by volume (Zienkiewicz and Zhu, Int.
-   * J. Numer. Methods Eng. 24, 1987). For materials of small strain; beside
-   * them there may be other cells. @p displacement with ghosts. Collective. */
+   * stiffness takes away. Recovered strains are means at vertices of those of
+   * cells, weighted by volume (Zienkiewicz and Zhu, Int. J. Numer. Methods Eng.
+   * 24, 1987): small strains, or Green's where @p large_strain, so that
+   * rotations are no error. The energy of their differences is that of a
+   * symmetric displacement gradient. There may be other cells, too, which do
+   * not count. @p displacement with ghosts. Collective. */
   template <int dim>
   double linear_stiffness_error(const dealii::Mapping<dim> &mapping,
                                 const dealii::DoFHandler<dim> &dof_handler,
                                 const la::Vector &displacement,
-                                const Materials<dim> &materials);
+                                const Materials<dim> &materials,
+                                bool large_strain);
 } // namespace abut::app
 
 #endif

@@ -517,11 +517,11 @@ namespace abut::app
 
   template <int dim> double SolidReport<dim>::report_linear_simplices() const
   {
-    if (parameters.simplex_degree > 1 || parameters.has_large_strain())
+    if (parameters.simplex_degree > 1)
       return -1.;
-    const double locked =
-        linear_stiffness_error(elasticity.mapping, elasticity.dof_handler,
-                               elasticity.ghosted(u), model.data.materials);
+    const double locked = linear_stiffness_error(
+        elasticity.mapping, elasticity.dof_handler, elasticity.ghosted(u),
+        model.data.materials, parameters.has_large_strain());
     if (locked <= visible_stiffness)
       return locked;
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bodies of linear tetrahedra with the displacements of another program,
+FrontISTR, at all nodes (https://github.com/FrontISTR/FrontISTR, commit
+9f5e9f5f): tetCM, tetMM (contact_slag_tied_iter) and 2box_tet_nofric_iter
+(contact_slag_iter)."""
+import math
+import re
+
+from block_scene import section, solid
+from program import Program, set_words
+from simplices import Mesh
+
+p = Program()
+ELASTIC = ("Young modulus = 1000", "Poisson ratio = 0.3")
+
+
+class Deck:
+    """Places and displacements of all nodes, and cells of node numbers."""
+
+    def __init__(self, rows, cells):
+        self.nodes = [tuple(row[:3]) for row in rows]
+        self.moved = [row[3:] for row in rows]
+        self.cells = cells
+
+    @classmethod
+    def read(cls, text):
+        lines = iter(line for line in text.splitlines() if line[0] != "#")
+
+        def block(kind):
+            return [[kind(word) for word in next(lines).split()]
+                    for _ in range(int(next(lines).split()[1]))]
+        rows = block(float)
+        return cls(rows, [[v - 1 for v in cell] for cell in block(int)])
+
+    def part(self, inside, id_of):
+        """Mesh of the cells with a node that is inside, and displacements."""
+        cells = [cell for cell in self.cells
+                 if any(inside(self.nodes[v]) for v in cell)]
+        used = sorted({v for cell in cells for v in cell})
+        index = {v: k for k, v in enumerate(used)}
+        mesh = Mesh(3, [self.nodes[v] for v in used],
+                    [[index[v] for v in cell] for cell in cells], id_of)
+        mesh.right_handed()
+        mesh.moved = [self.moved[v] for v in used]
+        return mesh
+
+
+def tied_beams():
+    """tetCM, of tests/hosts/tied_beams.h."""
+    text = (p.source / "tests/hosts/tied_beams.h").read_text()
+    number = r"([-+.\de]+)"
+    node = r"\{\{" + ", ".join([number] * 3) + r"\}, \{" + ", ".join(
+        [number] * 3) + r"\}\}"
+    rows = [[float(x) for x in row] for row in re.findall(node, text)]
+    ends = [(2, 4), (1, 7), (1, 4), (2, 7), (0, 3), (5, 6)]
+    deck = Deck(rows, [])
+    for cube in range(4):
+        first, last = (0, 14) if cube < 2 else (14, 28)
+        index = {deck.nodes[i]: i for i in range(first, last)}
+
+        def at(corner):
+            return index[(float(cube + corner % 2), float(corner // 2 % 2),
+                          float(corner // 4))]
+        for face in range(6):
+            pair = (0, 6) if face == 0 and cube % 2 == 1 else ends[face]
+            bit = 1 << face // 2
+            for third in range(8):
+                if third & bit == face % 2 * bit and third not in pair:
+                    deck.cells.append([(12, 13, 26, 27)[cube], at(pair[0]),
+                                       at(pair[1]), at(third)])
+    return deck
+
+
+def read_deck(name):
+    return Deck.read((p.source / "tests/app/decks" / name).read_text())
+
+
+def area(corners):
+    a, b = ([x - y for x, y in zip(corner, corners[0])]
+            for corner in corners[1:])
+    return [(a[1] * b[2] - a[2] * b[1]) / 2., (a[2] * b[0] - a[0] * b[2]) / 2.,
+            (a[0] * b[1] - a[1] * b[0]) / 2.]
+
+
+def displacements(meshes):
+    """Largest difference to those of the other program, of all nodes."""
+    found = {(row["body"], row["x"], row["y"], row["z"]): [
+        row["displacement_" + d] for d in "xyz"]
+        for row in p.table("nodal.csv")}
+    pairs = [(found[(float(number), *x)], u)
+             for number, mesh in enumerate(meshes, 1)
+             for x, u in zip(mesh.vertices, mesh.moved)]
+    return len(pairs), max(abs(a - b) for one in pairs for a, b in zip(*one))
+
+
+def run(name, settings=(), words=()):
+    return p.expect_run(p.call("run", name, "--output", "out", "--quiet",
+                               *set_words(settings)), 0, *words)
+
+
+def body(number, *lines):
+    return section(f"Body {number}",
+                   section("Mesh", f"File = body-{number}.msh"), *ELASTIC,
+                   *lines)
+
+
+OUTPUT = section("Output", "Nodal values = true")
+LEVEL = section("Refinement", "Level = 0")
+NODES = section("Method", "Discretisation = node to segment",
+                "Sliding = small")
+
+
+def check_tied(name, deck, n_expected):
+    """(0, 2) x (0, 1)^2 is clamped at x = 0 and tied at x = 2 to (2, 4) x
+    (0, 1)^2. The pressure of 1 on y = 1 follows the facets: their forces at the
+    other program's displacements are dead loads of each here."""
+    parts, meshes = [], []
+    for number in (1, 2):
+        mesh = deck.part(
+            lambda x, low=2 * number - 2: low < x[0] < low + 2,
+            lambda corners: 1 if all(x[0] == 0 for x in corners)
+            else 2 if all(x[0] == 2 for x in corners) else 0)
+        loads = []
+        for k, (_, face) in enumerate(mesh.faces):
+            if any(mesh.vertices[v][1] != 1. for v in face):
+                continue
+            flat = area([mesh.vertices[v] for v in face])
+            sign = math.copysign(1., flat[1])
+            now = area([[x + u for x, u in zip(mesh.vertices[v],
+                                               mesh.moved[v])] for v in face])
+            mesh.faces[k] = (10 + len(loads), face)
+            loads.append(f"{mesh.faces[k][0]}: " + ", ".join(
+                "%.15g" % (-sign * x / abs(flat[1])) for x in now))
+        p.write(f"body-{number}.msh", mesh.gmsh())
+        support = ["Support = 1: 0, 0, 0"] if number == 1 else []
+        parts.append(body(number, *support, "Traction = " + "; ".join(loads)))
+        meshes.append(mesh)
+    p.write("beams.prm", solid(
+        3, *parts, section("Pair 1", "Secondary = 2: 2", "Primary = 1: 2",
+                           "Tied = true"), LEVEL, NODES, OUTPUT))
+    # They are stiff, which is said; the other program's are the same.
+    run("beams.prm", {"Solid/Degree": 1}, words=["ABUT-F16"])
+    n_nodes, worst = displacements(meshes)
+    p.expect(n_nodes == n_expected and worst < 1e-9, f"{name}: {worst}")
+
+
+# Nodes that the other program lost: they went through the lower box.
+LOST = ((0., 0.89999998, 1.), (0.89999998, 0., 1.))
+
+
+def check_boxes():
+    """(0, 0.9)^2 x (1, 2), of St. Venant and Kirchhoff's material, is pressed
+    by 0.1 on the unit cube. With the facets of both lost nodes the force is
+    somewhat larger than that of the other program with wedges (41.077863) or
+    hexahedra (41.053478) below, which loses no nodes: twelve tetrahedra are
+    stiffer."""
+    deck = read_deck("2box.txt")
+
+    def id_of(corners):
+        for d in range(3):
+            for side, end in enumerate((0., 2.)):
+                if all(x[d] == end for x in corners):
+                    return 2 * d + side
+        if all(x[2] == 1 for x in corners):
+            return 8 if any(tuple(x) in LOST for x in corners) else 7
+        return 6
+    meshes = [deck.part(lambda x: x[2] < 1, id_of),
+              deck.part(lambda x: x[2] > 1, id_of)]
+    rollers = "0: 0, free, free; 2: free, 0, free; "
+    for number, (mesh, end) in enumerate(
+            zip(meshes, ("4: free, free, 0", "5: free, free, -0.1")), 1):
+        p.write(f"body-{number}.msh", mesh.gmsh())
+        meshes[number - 1].lines = ("Material = st venant-kirchhoff",
+                                    f"Support = {rollers}{end}")
+    p.write("boxes.prm", solid(
+        3, *(body(k + 1, *mesh.lines) for k, mesh in enumerate(meshes)),
+        section("Pair 1", "Secondary = 2: 7", "Primary = 1: 7"), LEVEL, NODES, OUTPUT))
+    degree = {"Solid/Degree": 1}
+    force = run("boxes.prm", degree)["pair_1_force"][2]
+    n_nodes, worst = displacements(meshes)
+    p.expect(n_nodes == 44 and worst < 1e-5, f"boxes: {worst}")
+    p.close(force, 39.481930810, 2e-5, "force of nodes that were not lost")
+    for method in ("node to segment", "dual mortar", "mortar"):
+        force = run("boxes.prm", {**degree, "Pair 1/Secondary": "2: 7, 8",
+                                  "Method/Discretisation": method}
+                    )["pair_1_force"][2]
+        p.expect(41.077863 < force < 41.4, f"{method}, all nodes: {force}")
+
+
+check_tied("tetCM", tied_beams(), 28)
+check_tied("tetMM", read_deck("tetMM.txt"), 75)
+check_boxes()
+p.finish()
