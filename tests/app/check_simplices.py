@@ -104,6 +104,31 @@ def check_large_strain():
             p.close(summary[key], SVK, 1e-9, f"{key}, degree {degree}")
 
 
+def check_touching():
+    """Surfaces that touch but for round-off measure no length: a column of two
+    cubes, shortened by 1 % by a rigid plate."""
+    p.write("low.msh", box((1,) * 3, (0,) * 3, (1,) * 3).gmsh())
+    p.write("high.msh", box((2,) * 3, (0, 0, 1), (1, 1, 2)).gmsh())
+    scene = p.write("touching.prm", "set Scene = solid\nset Dimension = 3\n"
+                    + section("Solid", "Bodies = 2", "Pairs = 2",
+                              "Obstacles = 1")
+                    + level(0)
+                    + section("Body 1", section("Mesh", "File = low.msh"),
+                              "Young modulus = 1000", "Poisson ratio = 0",
+                              "Support = 4: 0, 0, 0")
+                    + section("Body 2", section("Mesh", "File = high.msh"),
+                              "Young modulus = 1000", "Poisson ratio = 0",
+                              "Support = 0: 0, free, free; 2: free, 0, free")
+                    + section("Pair 1", "Secondary = 2: 4", "Primary = 1: 5")
+                    + section("Pair 2", "Secondary = 2: 5", "Obstacle = 1")
+                    + section("Obstacle 1", "Kind = plane",
+                              "Point = 0, 0, 1.98", "Normal = 0, 0, -1"))
+    summary = run(scene)
+    for pair in (1, 2):
+        below(abs(summary[f"pair_{pair}_force"][2]) - 10., 1e-8,
+              f"force of pair {pair} of a column")
+
+
 def quality(corners):
     """3 r_in / R_circ of a tetrahedron: 1 if it is regular."""
     a, b, c = ([x - y for x, y in zip(corner, corners[0])]
@@ -480,6 +505,7 @@ def check_slot():
 
 check_patch()
 check_large_strain()
+check_touching()
 check_slot()
 check_levels()
 check_bisection()
