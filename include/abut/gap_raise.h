@@ -35,8 +35,8 @@ extern "C"
   /** Rows after a solve. */
   typedef struct abut_raised_rows
   {
-    size_t struct_size; /**< sizeof(abut_raised_rows) */
-    int32_t n_rows;
+    size_t struct_size;      /**< sizeof(abut_raised_rows) */
+    int32_t n_rows;          /**< number of rows */
     const double *clearance; /**< [n_rows] INFINITY: row stays as it is */
     const double *gap;       /**< [n_rows] with the present amounts */
     const double *pressure;  /**< [n_rows] */

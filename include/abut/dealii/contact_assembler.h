@@ -100,7 +100,7 @@ namespace abut
     abut_failure failure = ABUT_FAILURE_NONE;
     /** The reason in words: what to try, and what was seen. */
     std::string explanation;
-    abut_progress progress = {};
+    abut_progress progress = {}; ///< how far it has come
   };
 
   /** Assembles and solves contact for one DoFHandler.

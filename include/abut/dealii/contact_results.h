@@ -21,7 +21,7 @@ namespace abut
   /** Measures of all rows, on all ranks. */
   struct ContactMeasures
   {
-    dealii::types::global_dof_index n_rows = 0;
+    dealii::types::global_dof_index n_rows = 0; ///< of all ranks
     /** Number of rows on this rank: it owns their secondary nodes. */
     unsigned int n_own_rows = 0;
     /** Number of rows in contact: in the present active set, or for interior
@@ -94,6 +94,7 @@ namespace abut
   public:
     virtual ~ContactResults() = default;
 
+    /** Numbers of rows, forces and penetrations. */
     virtual ContactMeasures measures() const = 0;
 
     /** Forces, moments and extremes on each pair; empty without pairs. */
@@ -132,6 +133,7 @@ namespace abut
      * do it there. */
     virtual dealii::IndexSet candidate_nodes() const = 0;
 
+    /** What search, points, messages and linear systems have cost. */
     virtual ContactEffort effort() const = 0;
   };
 } // namespace abut

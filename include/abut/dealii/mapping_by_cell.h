@@ -35,13 +35,16 @@ namespace abut
         dealii::internal::FEValuesImplementation::MappingRelatedData<dim>;
 
   public:
+    /** A cell, active or not. */
     using Cell = typename dealii::Triangulation<dim>::cell_iterator;
 
+    /** @param mappings one for each kind of cells; copied */
     explicit MappingByCell(dealii::hp::MappingCollection<dim> mappings)
         : mappings_(std::move(mappings))
     {
     }
 
+    /** A kind of cells. */
 #if DEAL_II_VERSION_GTE(9, 8, 0)
     using ReferenceCell = dealii::ReferenceCell<dim>;
 #else
@@ -57,15 +60,19 @@ namespace abut
       return mappings_[mappings_.size() - 1];
     }
 
+    /** The mapping of a cell. */
     const Base &of(const Cell &cell) const
     {
       return of(cell->reference_cell());
     }
 
+    /** All of them. */
     const dealii::hp::MappingCollection<dim> &mappings() const
     {
       return mappings_;
     }
+
+    /** @cond */
 
     std::unique_ptr<Base> clone() const override
     {
@@ -154,6 +161,7 @@ namespace abut
     {
       transform_any(input, kind, data, output);
     }
+    /** @endcond */
 
   private:
     /** Data of the mappings that have been used, and the last of these. */
