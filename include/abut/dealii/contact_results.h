@@ -133,7 +133,7 @@ namespace abut
      * do it there. */
     virtual dealii::IndexSet candidate_nodes() const = 0;
 
-    /** What search, points, messages and linear systems have cost. */
+    /** Cost of search, points, messages and linear systems. */
     virtual ContactEffort effort() const = 0;
   };
 } // namespace abut
