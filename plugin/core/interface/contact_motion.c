@@ -76,7 +76,7 @@ facet_normal(const abut_surface *s, int32_t f, const double *position,
              double *n)
 {
   const int32_t dim = s->view.dimension;
-  double corner[3][3];
+  double corner[3][3] = {{0.}};
   for (int32_t k = 0; k < dim; ++k)
     load3(position, dim, s->view.connectivity[s->view.facet_start[f] + k],
           corner[k]);
