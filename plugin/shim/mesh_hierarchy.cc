@@ -273,7 +273,7 @@ namespace abut::shim
         {
           if (!cell->has_children())
             continue;
-          if (cell->refinement_case() != isotropic)
+          if (!is_simplex_ && cell->refinement_case() != isotropic)
             return false;
           for (const unsigned int line : cell->line_indices())
             record_middle(cell->line(line), l);

@@ -136,7 +136,7 @@ namespace abut::app
         children.reserve(list.size() << structdim);
         for (const dealii::CellData<structdim> &parent : list)
         {
-          VertexNumbers<structdim + 1> corners;
+          VertexNumbers<structdim + 1> corners{};
           std::copy(parent.vertices.begin(), parent.vertices.end(),
                     corners.begin());
           for (const auto &part : parts(corners))
