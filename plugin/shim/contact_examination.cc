@@ -411,6 +411,22 @@ namespace abut::shim
                      pair + ": " + found.text(depth));
     }
 
+    /** Surfaces in an obstacle that they have no constraint with: a small one
+     * may have come through them in one step, so that they face its far side.
+     */
+    void judge_unconstrained(const std::string &pair, const double depth,
+                             const double facet, const Scale &scale,
+                             Findings &findings)
+    {
+      constexpr double round_off = 1e-6;
+      if (depth > round_off * facet && scale.is_more(depth, useless))
+        findings.add(ABUT_FAILURE_UNSEEN, true,
+                     pair + ": the surface is in the obstacle by "
+                         + scale.compared(depth)
+                         + ", and has no constraint: refine the surface "
+                           "there, or use smaller load steps.");
+    }
+
     /** The deepest of all ranks. */
     struct Deepest
     {
@@ -598,6 +614,13 @@ namespace abut::shim
                          ? passed_between(i.surfaces->points(), p, inside.place)
                          : ObstacleWidth(),
                      checks[p].facet_size, result.strain, scale, findings);
+        const bool is_prescribed =
+            std::any_of(checks[p].warnings.begin(), checks[p].warnings.end(),
+                        [](const Message &warning)
+                        { return warning.failure == ABUT_FAILURE_HELD_NODES; });
+        if (pairs[p].n_rows == 0 && !is_prescribed)
+          judge_unconstrained(pairs[p].name, inside.at_surface,
+                              checks[p].facet_size, scale, findings);
       }
       result.missed_depth =
           std::max(result.missed_depth, pairs[p].missed_depth);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include "nodal_candidates.h"
 
-#include "by_element.h"
 #include "cell_quadrature.h"
 #include "shifted_cells.h"
+#include "values_by_element.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/versions.h>
@@ -89,14 +89,9 @@ namespace abut::shim
                            const dealii::DoFHandler<dim> &dof_handler,
                            Collection<dim> &collection)
     {
-      const ByElement values_of(dof_handler,
-                                [&](const dealii::FiniteElement<dim> &fe)
-                                {
-                                  return dealii::FEValues<dim>(
-                                      mapping, fe, support_quadrature(fe),
-                                      dealii::update_JxW_values
-                                          | dealii::update_quadrature_points);
-                                });
+      const auto values_of = cell_values(
+          mapping, dof_handler, support_quadrature<dim>,
+          dealii::update_JxW_values | dealii::update_quadrature_points);
       std::vector<global_dof_index> dofs;
       ShiftedCells<dim> shapes(mapping);
       const bool nodes_are_vertices =
@@ -137,15 +132,10 @@ namespace abut::shim
                              const std::set<dealii::types::boundary_id> &ids,
                              Collection<dim> &collection)
     {
-      const ByElement values_of(dof_handler,
-                                [&](const dealii::FiniteElement<dim> &fe)
-                                {
-                                  return dealii::FEFaceValues<dim>(
-                                      mapping, fe, node_rule(fe),
-                                      dealii::update_values
-                                          | dealii::update_JxW_values
-                                          | dealii::update_quadrature_points);
-                                });
+      const auto values_of =
+          face_values(mapping, dof_handler, node_rule<dim>,
+                      dealii::update_values | dealii::update_JxW_values
+                          | dealii::update_quadrature_points);
       std::vector<global_dof_index> dofs;
       // A node of this rank may lie on boundary faces of ghost cells only: its
       // place is taken from there, its weight from the owner of the cell.

@@ -3,9 +3,9 @@
 #include "nodal_obstacle_rows.h"
 
 #include "agree.h"
-#include "by_element.h"
 #include "reference_faces.h"
 #include "sampling.h"
+#include "values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -136,31 +136,20 @@ namespace abut::shim
     std::optional<ByElement<dealii::FEValues<dim>>> in_cells;
     std::optional<ByElement<dealii::FEFaceValues<dim>>> on_all_faces;
     if (on_faces)
-      on_all_faces.emplace(dof_handler_,
-                           [&](const Element &fe)
-                           {
-                             return dealii::FEFaceValues<dim>(
-                                 mapping_, fe,
-                                 regular_points<dim - 1>(n, is_simplex(fe)),
-                                 flags);
-                           });
+      on_all_faces.emplace(face_values(
+          mapping_, dof_handler_,
+          [&](const Element &fe)
+          { return regular_points<dim - 1>(n, is_simplex(fe)); },
+          flags));
     else
-      in_cells.emplace(dof_handler_,
-                       [&](const Element &fe)
-                       {
-                         return dealii::FEValues<dim>(
-                             mapping_, fe,
-                             regular_points<dim>(n, is_simplex(fe)), flags);
-                       });
-    const ByElement at_all_nodes(
-        dof_handler_,
-        [&](const Element &fe)
-        {
-          return dealii::FEValues<dim>(
-              mapping_, fe,
-              dealii::Quadrature<dim>(fe.get_unit_support_points()),
-              dealii::update_quadrature_points);
-        });
+      in_cells.emplace(cell_values(
+          mapping_, dof_handler_,
+          [&](const Element &fe)
+          { return regular_points<dim>(n, is_simplex(fe)); },
+          flags));
+    const auto at_all_nodes =
+        cell_values(mapping_, dof_handler_, shim::nodes<dim>,
+                    dealii::update_quadrature_points);
     std::vector<dealii::types::global_dof_index> dofs;
     std::vector<double> of_nodes, values, height;
     std::vector<dealii::Point<dim>> nodes;

@@ -26,9 +26,7 @@ namespace abut::shim
     options.discretisation = discretisation;
     if (discretisation_info(discretisation).has_degree)
       options.multiplier_degree =
-          pair.has_quadratic_triangles
-              ? 1
-              : static_cast<std::int32_t>(host.method.multiplier_degree);
+          static_cast<std::int32_t>(pair.multiplier_degree);
     options.quadrature_degree =
         static_cast<std::int32_t>(host.method.quadrature_degree);
     options.segments = host.method.segments;

@@ -171,6 +171,8 @@ namespace abut::shim
     pair.data = data;
     pair.has_quadratic_triangles =
         exchange_->has_quadratic_triangles(data.secondary);
+    pair.multiplier_degree =
+        pair.has_quadratic_triangles ? 1 : host_.method.multiplier_degree;
     const abut_law &law = *host_.method.options.law;
     const abut_kinematics kinematics =
         host_.method.kinematics.value_or(ABUT_KINEMATICS_REFERENCE);

@@ -2,7 +2,10 @@
 // Values of rows between surfaces as fields on the unknowns, and back.
 #include "surface_fields.h"
 
+#include <abut/dealii/versions.h>
 #include <abut/strategy.h>
+
+#include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +77,52 @@ namespace abut::shim
   }
 
   template <int dim>
+  void SurfaceFields<dim>::fill_between_nodes(la::Vector &field) const
+  {
+    dealii::AffineConstraints<double> linear;
+    versions::reinit(
+        linear, host_.dof_handler.locally_owned_dofs(),
+        dealii::DoFTools::extract_locally_relevant_dofs(host_.dof_handler));
+    bool any = false;
+    for (const SurfacePair<dim> &pair : points_.pairs())
+      if (pair.has_linear_multipliers())
+      {
+        any = true;
+        for (const std::int32_t number : pair.secondary.facet)
+          add_lines_between_corners(surface_.facets[number], linear);
+      }
+    if (any)
+    {
+      linear.close();
+      linear.distribute(field);
+    }
+    points_.exchange().hanging().distribute(field);
+  }
+
+  template <int dim>
+  void SurfaceFields<dim>::add_lines_between_corners(
+      const Facet &facet, dealii::AffineConstraints<double> &lines) const
+  {
+    const unsigned int n = abut_facet_n_corners(facet.kind);
+    for (unsigned int k = n; k < facet.n_nodes(); ++k)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto dof = surface_.nodes[facet.node[k]].dof[d];
+        if (!host_.dof_handler.locally_owned_dofs().is_element(dof)
+            || lines.is_constrained(dof))
+          continue;
+        // An edge has two corners, the middle of a facet all.
+        std::vector<unsigned int> corners = {k - n, (k - n + 1) % n};
+        if (k == 2 * n)
+          corners = {0, 1, 2, 3};
+        lines.add_line(dof);
+        for (const unsigned int corner : corners)
+          lines.add_entry(dof, surface_.nodes[facet.node[corner]].dof[d],
+                          1. / corners.size());
+      }
+  }
+
+  template <int dim>
   la::Vector SurfaceFields<dim>::pressure(const double *row_pressure) const
   {
     // At nodes as it is; from quadrature points by weighted means.
@@ -103,7 +152,7 @@ namespace abut::shim
     for (int i = 0; i < la::n_owned(result); ++i)
       if (w[i] > 0.)
         p[i] /= w[i];
-    points_.exchange().hanging().distribute(result);
+    fill_between_nodes(result);
     return result;
   }
 
@@ -129,7 +178,7 @@ namespace abut::shim
     for (int i = 0; i < la::n_owned(result); ++i)
       if (w[i] > 0.)
         g[i] /= w[i];
-    points_.exchange().hanging().distribute(result);
+    fill_between_nodes(result);
     return result;
   }
 

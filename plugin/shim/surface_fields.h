@@ -37,6 +37,15 @@ namespace abut::shim
     void make_isotropic(la::Vector &value) const;
 
   private:
+    using Facet = typename ContactSurface<dim>::Facet;
+
+    /** Values of nodes that follow from those of others: between corners, where
+     * multipliers have degree 1 on facets of degree 2, and where nodes hang.
+     * Collective. */
+    void fill_between_nodes(la::Vector &field) const;
+    void
+    add_lines_between_corners(const Facet &facet,
+                              dealii::AffineConstraints<double> &lines) const;
     /** Call function(row, node, share) for the nodes that have a value of the
      * row: its own, or those around a quadrature point. */
     template <typename Function>

@@ -46,6 +46,8 @@ namespace abut::shim
     ContactPair<dim> data;
     /** On its secondary, of any rank. */
     bool has_quadratic_triangles = false;
+    /** For discretisations that have one; 0: that of the facets. */
+    unsigned int multiplier_degree = 0;
     abut_kinematics kinematics = ABUT_KINEMATICS_REFERENCE;
     /** Configurations that it makes points in, and that its directions and
      * gaps refer to. */
@@ -107,6 +109,13 @@ namespace abut::shim
     }
 
     abut_discretisation discretisation = ABUT_DISCRETISATION_DUAL_MORTAR;
+
+    /** Whether there are rows at the corners of facets of degree 2 alone. */
+    bool has_linear_multipliers() const
+    {
+      return discretisation_info(discretisation).has_degree
+             && multiplier_degree == 1;
+    }
     SurfaceSide<dim> secondary, primary;
     Handle<abut_coupling> coupling;
     /** Thickness of the body that a point must not be pushed through, the

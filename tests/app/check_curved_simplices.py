@@ -9,10 +9,11 @@ import subprocess
 import time
 
 from block_scene import section
-from program import Program, set_words
+from program import Program
 from simplices import box
 
 p = Program()
+run = p.run_scene
 INSIDE, OUTSIDE, E, NU = 1., 2., 1000., 0.3
 
 
@@ -40,12 +41,6 @@ def scene(dim, *parts, bodies=1, pairs=0):
     return (f"set Scene = solid\nset Dimension = {dim}\n"
             + section("Solid", f"Bodies = {bodies}", f"Pairs = {pairs}")
             + "".join(parts))
-
-
-def run(name, settings=(), codes=0, words=(), ranks=0):
-    result = p.call("run", name, "--output", "out", "--quiet",
-                    *set_words(settings), ranks=ranks)
-    return p.expect_run(result, codes, *words)
 
 
 def check_volumes():

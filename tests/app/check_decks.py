@@ -7,10 +7,11 @@ import math
 import re
 
 from block_scene import section, solid
-from program import Program, set_words
+from program import Program
 from simplices import Mesh
 
 p = Program()
+run = p.run_scene
 ELASTIC = ("Young modulus = 1000", "Poisson ratio = 0.3")
 
 
@@ -91,11 +92,6 @@ def displacements(meshes):
              for number, mesh in enumerate(meshes, 1)
              for x, u in zip(mesh.vertices, mesh.moved)]
     return len(pairs), max(abs(a - b) for one in pairs for a, b in zip(*one))
-
-
-def run(name, settings=(), words=()):
-    return p.expect_run(p.call("run", name, "--output", "out", "--quiet",
-                               *set_words(settings)), 0, *words)
 
 
 def body(number, *lines):

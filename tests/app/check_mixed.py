@@ -16,23 +16,7 @@ from vtu import pieces
 
 p = Program()
 ELASTIC = ("Young modulus = 1000", "Poisson ratio = 0.3")
-
-
-def run(scene, settings=(), codes=0, words=(), without=(), ranks=0, more=()):
-    """Of a scene in the folder; returns its summary."""
-    result = p.call("run", scene, "--output", "out", "--quiet",
-                    *set_words(settings), *more, ranks=ranks)
-    return p.expect_run(result, codes, *words, without=without)
-
-
-def refused(scene, settings, *texts):
-    p.expect_error(p.call("run", scene, "--output", "out", "--quiet",
-                          *set_words(settings)), *texts)
-
-
-def below(value, bound, what):
-    p.expect(value is not None and abs(value) <= bound,
-             f"{what}: {value} is not below {bound}")
+run, refused, below = p.run_scene, p.refuse_scene, p.below
 
 
 def bricks(n, low):

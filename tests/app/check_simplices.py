@@ -9,24 +9,13 @@ import subprocess
 import time
 
 from block_scene import section, solid
-from program import Program, set_words
+from program import Program
 from simplices import Mesh, box
 from vtu import pieces
 
 p = Program()
 ELASTIC = ("Young modulus = 1000", "Poisson ratio = 0.3")
-
-
-def run(scene, settings=(), codes=0, words=(), without=(), ranks=0, more=()):
-    """Of a scene in the folder; returns its summary."""
-    result = p.call("run", scene, "--output", "out", "--quiet",
-                    *set_words(settings), *more, ranks=ranks)
-    return p.expect_run(result, codes, *words, without=without)
-
-
-def refused(scene, settings, *texts):
-    p.expect_error(p.call("run", scene, "--output", "out", "--quiet",
-                          *set_words(settings)), *texts)
+run, refused, below = p.run_scene, p.refuse_scene, p.below
 
 
 def body(number, file, *lines):
@@ -36,11 +25,6 @@ def body(number, file, *lines):
 
 def level(number):
     return section("Refinement", f"Level = {number}")
-
-
-def below(value, bound, what):
-    p.expect(value is not None and abs(value) <= bound,
-             f"{what}: {value} is not below {bound}")
 
 
 # Two boxes on each other, of meshes that do not match.
@@ -433,6 +417,13 @@ def check_refusals():
              f"two ranks: {result.stderr}")
 
 
+def check_multipliers():
+    for name in ("tetrahedra.prm", "cube-of-tetrahedra.msh"):
+        shutil.copy(p.source / "prm" / name, p.folder / name)
+    refused("tetrahedra.prm", {"Method/Multiplier degree": 0},
+            "Multiplier degree", "degree 1")
+
+
 def check_unseen():
     """A ball that is inside of a corner only, by less than means over the
     facets around can show: no answer, as no constraint presses."""
@@ -443,6 +434,10 @@ def check_unseen():
     p.expect(result.returncode == 3 and "ABUT-F37" in result.stderr
              and "no constraint presses" in result.stderr,
              f"unseen ball: {result.returncode} {result.stderr}")
+    # Its centre comes below the surface in one step.
+    run("tetrahedra.prm", {"Obstacle 1/Radius": 0.002, "Refinement/Adaptive "
+                           "cycles": 0, "Obstacle 1/Centre": "0, 0, 0.002"},
+        3, ("ABUT-F37", "has no constraint"))
 
 
 def check_surfaces():
@@ -516,6 +511,7 @@ check_restart()
 check_files()
 check_motion()
 check_refusals()
+check_multipliers()
 check_unseen()
 check_surfaces()
 p.finish()

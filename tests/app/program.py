@@ -102,6 +102,10 @@ class Program:
                 and abs(value - expected) <= tolerance * abs(expected))
         self.expect(good, f"{message}: {value} is not {expected}")
 
+    def below(self, value, bound, what):
+        self.expect(value is not None and abs(value) <= bound,
+                    f"{what}: {value} is not below {bound}")
+
     def expect_error(self, result, *texts, code=2):
         """One error with this exit code that contains the texts."""
         lines = [line for line in result.stderr.splitlines()
@@ -132,6 +136,18 @@ class Program:
                         f"{what}: '{word}' in:\n{result.stderr}")
         file = self.folder / "out/summary.json"
         return json.loads(file.read_text()) if file.exists() else {}
+
+    def run_scene(self, scene, settings=(), codes=0, words=(), without=(),
+                  ranks=0, more=()):
+        """Run a scene in the folder, see expect_run(); returns its summary."""
+        result = self.call("run", scene, "--output", "out", "--quiet",
+                           *set_words(settings), *more, ranks=ranks)
+        return self.expect_run(result, codes, *words, without=without)
+
+    def refuse_scene(self, scene, settings, *texts):
+        """The same where it is an error, see expect_error()."""
+        self.expect_error(self.call("run", scene, "--output", "out", "--quiet",
+                                    *set_words(settings)), *texts)
 
     def solve(self, scene, *words, ranks=0):
         """Run a shipped scene; returns summary and rows of levels.csv."""

@@ -86,6 +86,20 @@ public:
     return contact.results().pairs()[0].secondary_force.norm();
   }
 
+  /** Largest difference of the nodal pressures on the secondary surface, those
+   * between corners included, from a uniform one. */
+  double pressure_error(const double uniform) const
+  {
+    const abut::la::Vector pressure = contact.results().pressure();
+    ComponentMask normal(dim, false);
+    normal.set(dim - 1, true);
+    double largest = 0.;
+    for (const auto dof :
+         DoFTools::extract_boundary_dofs(dof_handler, normal, {6}))
+      largest = std::max(largest, std::abs(std::abs(pressure(dof)) - uniform));
+    return largest;
+  }
+
   std::string linear_solver() const
   {
     return contact.results().effort().linear.method;
@@ -167,9 +181,12 @@ main(int argc, char **argv)
   bool good = true;
   for (const unsigned int degree : {1, 2})
   {
-    const double force = Blocks<3>(degree, 0).run();
-    std::cout << "degree " << degree << ": force " << force << std::endl;
-    good = good && std::abs(force - 50.) < 1e-5;
+    Blocks<3> blocks(degree, 0);
+    const double force = blocks.run(),
+                 pressure_error = blocks.pressure_error(50.);
+    std::cout << "degree " << degree << ": force " << force
+              << ", error of pressures " << pressure_error << std::endl;
+    good = good && std::abs(force - 50.) < 1e-5 && pressure_error < 1e-4;
     Blocks<3> refined(degree, 1);
     abut::SolverParameters parameters;
     parameters.linear = abut::SolverParameters::Linear::geometric;

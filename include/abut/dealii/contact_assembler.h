@@ -18,10 +18,9 @@
  * When the mesh is refined, coarsened or partitioned again, the host takes
  * displacement and pressures along like any other fields:
  *
- *     // u, p: with ghosts, p copied from a variable that has
- * results().pressure():
- *     // an assignment of the temporary itself would move it, and lose the
- * ghosts transfer.prepare_for_coarsening_and_refinement({&u, &p});
+ *     // u, p: with ghosts, p copied from a variable with results().pressure();
+ *     // if the temporary itself were assigned, p would lose its ghosts
+ *     transfer.prepare_for_coarsening_and_refinement({&u, &p});
  *     triangulation.execute_coarsening_and_refinement(); // or repartition()
  *     // distribute unknowns, make constraints, vectors u and p without ghosts
  *     transfer.interpolate({&u, &p});
@@ -143,8 +142,9 @@ namespace abut
      * To be called after each change of the mesh or of the ranks of its cells.
      * Forgets pressures unless ContactState::set_pressure() follows. Throws
      * ContactError for cells and elements without contact: others than
-     * quadrilaterals, hexahedra, triangles and tetrahedra, collections of
-     * elements, tetrahedra with hanging nodes. Collective for tetrahedra only.
+     * quadrilaterals, hexahedra, triangles and tetrahedra, two elements for one
+     * kind of cells, tetrahedra with hanging nodes. Collective for tetrahedra
+     * only.
      */
     virtual void reinit(const dealii::Mapping<dim> &mapping,
                         const dealii::DoFHandler<dim> &dof_handler,
@@ -188,8 +188,7 @@ namespace abut
     /** Checks of the problem and of its answer, likewise. */
     virtual const ContactChecks<dim> &checks() const;
 
-    /** Start of a solve, on other meshes and in other runs, likewise.
-     */
+    /** Start of a solve, on other meshes and in other runs, likewise. */
     virtual ContactState &state();
 
     /** State of the iteration, and why it stopped. Not collective. */

@@ -107,11 +107,12 @@ namespace abut
      * Pairs: the vector p n at the nodes of the secondary surface, where -p n
      * is the force per area on it, so that it can be interpolated to another
      * mesh; for ties likewise with the shear. Hanging nodes have the value of
-     * their parents. */
+     * their parents, nodes between corners the mean of these where multipliers
+     * have degree 1. */
     virtual la::Vector pressure() const = 0;
 
     /** Nodal gap to the nearer obstacle, 0 where there is no row. Pairs: in
-     * each of the first dim components. */
+     * each of the first dim components; between corners as pressure(). */
     virtual la::Vector gap() const = 0;
 
     /** Pairs with friction: how far what is in contact has come along the other

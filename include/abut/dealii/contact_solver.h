@@ -41,10 +41,11 @@
 #include <abut/dealii/contact_loop.h>
 #include <abut/dealii/contact_solver_types.h>
 #include <abut/dealii/partner_words.h>
+#include <abut/dealii/solver_words.h>
+#include <abut/dealii/step_scales.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -310,7 +311,7 @@ namespace abut
       if (part <= parameters_.useless_imbalance)
         return true;
       return stop(NewtonReason::unbalanced,
-                  "The residual at the answer is " + short_number(part)
+                  "The residual at the answer is " + three_digits(part)
                       + " of the load: it is not what the tangent is the "
                         "derivative of. The residual is internal minus "
                         "external forces; look at its sign, whether the "
@@ -358,7 +359,7 @@ namespace abut
           "Newton's method has not converged after "
               + std::to_string(parameters_.max_steps)
               + " linearisations, the estimated relative error is "
-              + short_number(result_.error)
+              + three_digits(result_.error)
               + ". Use smaller load steps, or check that the tangent "
                 "is the derivative of the residual.",
           u);
@@ -496,28 +497,11 @@ namespace abut
       return result;
     }
 
-    /** Scales that a step is compared with. */
-    struct Scales
+    StepScales measure(const Tangent &tangent, const la::Vector &u)
     {
-      double before = 0.; ///< forces out of balance in the linear model
-      double length = 0.; ///< of the step, in the energy norm
-      double energy = 0.; ///< energy norm of the displacement
-      double force = 0.;
-      bool is_positive = true; ///< whether energies are a measure
-      double defect = 0.;      ///< of the law, before the step
-      /** Forces, and root of their energy, that no solver lowers: round-off of
-       * what the entries of the tangent make of the displacement. */
-      double round_off = 0., round_off_of_energy = 0.;
-      /** Forces out of balance, and what prescribed values change of them:
-       * their squares and product, before the step. */
-      double squares[3] = {0., 0., 0.};
-    };
-
-    Scales measure(const Tangent &tangent, const la::Vector &u)
-    {
-      Scales scales;
-      scales.defect = defect_;
-      scales.before = imbalance();
+      StepScales scales;
+      scales.before = {imbalance(), defect_};
+      scales.has_change = has_change_;
       if (has_change_)
       {
         product_ -= change_;
@@ -529,8 +513,8 @@ namespace abut
                    start = energy(tangent, u);
       scales.length = step.norm;
       scales.energy = largest_ = std::max({end.norm, start.norm, largest_});
-      scales.force =
-          std::max({scales.before, forces_.l2_norm(), end.force, start.force});
+      scales.force = std::max(
+          {scales.before.residual, forces_.l2_norm(), end.force, start.force});
       scales.is_positive = step.is_positive;
       find_round_off(tangent, scales);
       return scales;
@@ -538,40 +522,11 @@ namespace abut
 
     /** Bodies that small forces move far, as across a clearance, have hardly
      * more energy than round-off. */
-    void find_round_off(const Tangent &tangent, Scales &scales)
+    void find_round_off(const Tangent &tangent, StepScales &scales)
     {
       constexpr double round_off = 1e-14;
       const ForceSize size = contact_.checks().size_of_forces(tangent, trial_);
-      scales.round_off = round_off * size.norm;
-      scales.round_off_of_energy = round_off * size.energy;
-    }
-
-    /** Whether forces and the law are satisfied but for round-off. */
-    bool is_round_off(const Scales &scales) const
-    {
-      return result_.residual <= scales.round_off
-             && defect_ <= scales.round_off_of_energy;
-    }
-
-    /** Forces out of balance that this part of a step has to lower: those with
-     * this part of the change of prescribed values, or without it. */
-    double imbalance_to_lower(const Scales &scales, const double part) const
-    {
-      if (!has_change_)
-        return scales.before;
-      const double *s = scales.squares;
-      return std::sqrt(
-          std::max({0., s[0], s[0] + part * (2. * s[1] + part * s[2])}));
-    }
-
-    /** Whether the step is so short that its residual is but round-off. */
-    bool is_at_end(const Scales &scales) const
-    {
-      if (is_round_off(scales))
-        return true;
-      return scales.is_positive
-                 ? scales.length <= parameters_.tolerance * scales.energy
-                 : result_.residual <= parameters_.tolerance * scales.force;
+      scales.round_off = {round_off * size.norm, round_off * size.energy};
     }
 
     /** The forces of contact at @p u and how far pressures and gaps are from
@@ -592,14 +547,6 @@ namespace abut
       constraints_.set_zero(forces_);
     }
 
-    /** A defect, root of an energy, as a force, so that both can be added. */
-    static double as_force(const Scales &scales, const double defect)
-    {
-      return defect > 0. && scales.energy > 0.
-                 ? defect / scales.energy * scales.force
-                 : 0.;
-    }
-
     /** Go from @p u towards trial_ as far as the residual falls, estimate the
      * error there, and set the next linear tolerance. */
     bool move(const Tangent &tangent, la::Vector &u)
@@ -607,14 +554,15 @@ namespace abut
       find_contact(u, true);
       step_ = trial_;
       step_ -= u;
-      const Scales scales = measure(tangent, u);
+      const StepScales scales = measure(tangent, u);
       result_.n_negative_steps += !scales.is_positive;
 
       double part = 1.;
       for (unsigned int halving = 0;; ++halving)
       {
         evaluate_trial();
-        if (is_lower(scales, part) || is_at_end(scales))
+        if (is_lower(scales, part)
+            || scales.is_at_end(rest(), parameters_.tolerance))
           break;
         part = halving < parameters_.max_halvings ? part / 2. : 0.;
         if (part == 0.)
@@ -629,8 +577,8 @@ namespace abut
       u = trial_;
       estimate(scales, part);
       if (events_.moved)
-        events_.moved({result_.n_steps, part, scales.before, result_.residual,
-                       result_.error});
+        events_.moved({result_.n_steps, part, scales.before.residual,
+                       result_.residual, result_.error});
       return true;
     }
 
@@ -648,14 +596,14 @@ namespace abut
 
     /** Take the whole step where a @p part is too small, if it may lead to a
      * lower residual later. */
-    bool takes_whole_step(const Scales &scales, const double part,
+    bool takes_whole_step(const StepScales &scales, const double part,
                           const la::Vector &u)
     {
       constexpr double small_part = 0.25;
       constexpr unsigned int most_steps = 5;
       if (part > 0. && watch_.left > 0
-          && (is_at_end(scales)
-              || result_.residual + as_force(scales, defect_) < watch_.goal))
+          && (scales.is_at_end(rest(), parameters_.tolerance)
+              || scales.sum(rest()) < watch_.goal))
       {
         watch_.left = 0;
         watch_.may_begin = true;
@@ -676,7 +624,7 @@ namespace abut
       {
         watch_.left = most_steps;
         watch_.start = u;
-        watch_.goal = scales.before + as_force(scales, scales.defect);
+        watch_.goal = scales.sum(scales.before);
       }
       return true;
     }
@@ -694,6 +642,12 @@ namespace abut
       return true;
     }
 
+    /** Forces and defect at the last trial. */
+    StepRest rest() const
+    {
+      return {result_.residual, defect_};
+    }
+
     void evaluate_trial()
     {
       find_residual(trial_);
@@ -703,21 +657,20 @@ namespace abut
 
     /** Whether this part of a step lowers forces out of balance and the error
      * of the law enough. */
-    bool is_lower(const Scales &scales, const double part) const
+    bool is_lower(const StepScales &scales, const double part) const
     {
-      return result_.residual + as_force(scales, defect_)
-             <= (1. - 1e-3 * part)
-                    * (imbalance_to_lower(scales, part)
-                       + as_force(scales, scales.defect));
+      return scales.sum(rest())
+             <= (1. - 1e-3 * part) * scales.sum(scales.to_lower(part));
     }
 
     /** The error after this part of a step, and the linear tolerance that the
      * next one deserves. */
-    void estimate(const Scales &scales, const double part)
+    void estimate(const StepScales &scales, const double part)
     {
-      const double ratio = scales.before > 0.
-                               ? std::min(1., result_.residual / scales.before)
-                               : 0.;
+      const double ratio =
+          scales.before.residual > 0.
+              ? std::min(1., result_.residual / scales.before.residual)
+              : 0.;
       if (scales.is_positive)
       {
         const double error =
@@ -734,7 +687,7 @@ namespace abut
       }
       if (scales.energy > 0.)
         result_.error = std::max(result_.error, defect_ / scales.energy);
-      if (part == 1. && is_round_off(scales))
+      if (part == 1. && scales.is_round_off(rest()))
         result_.error = std::min(result_.error, parameters_.tolerance);
       if (has_change_ && part < 1.) // prescribed values are not there yet
         result_.error = std::max(result_.error, 1. - part);
@@ -753,54 +706,12 @@ namespace abut
                   ABUT_FAILURE_NOT_FINITE);
     }
 
-    /** A sentence, if there were any. */
-    std::string about_negative_steps() const
-    {
-      if (result_.n_negative_steps == 0)
-        return "";
-      return " The tangent K was not positive (d . K d <= 0) along "
-             + std::to_string(result_.n_negative_steps) + " of "
-             + std::to_string(result_.n_steps)
-             + " steps d, as where a material softens or a body snaps through: "
-               "there may be no equilibrium near. Prescribe displacements "
-               "instead of forces, or use smaller load steps.";
-    }
-
-    /** A sentence, if bodies have left what contact takes for opposite. */
-    std::string about_sliding(const la::Vector &u)
-    {
-      constexpr double too_far = 0.25;
-      for (const StepMotion &pair : contact_.checks().step_motion(goal(u)))
-        if (pair.stays && pair.facet > 0. && pair.slip > too_far * pair.facet)
-          return " Bodies have slid on each other by "
-                 + short_number(pair.slip / pair.facet)
-                 + " facets, but contact has the partners of the undeformed "
-                   "ones: let points follow (Method/Sliding = large).";
-      return "";
-    }
-
-    bool give_up(const Scales &scales, const la::Vector &u)
+    bool give_up(const StepScales &scales, const la::Vector &u)
     {
       if (!std::isfinite(result_.residual))
         return stop_not_finite();
-      return stop_astray(
-          NewtonReason::line_search,
-          "No step lowers the residual, " + short_number(scales.before)
-              + " before and " + short_number(result_.residual)
-              + " after the shortest one tried" + about_defect(scales)
-              + ". Check that the tangent is the derivative of the residual, "
-                "and use smaller load steps.",
-          u);
-    }
-
-    /** Error of the law at points that move, as a part of a sentence. */
-    std::string about_defect(const Scales &scales) const
-    {
-      if (scales.defect + defect_ == 0.)
-        return "";
-      return ", together with what the law of contact is off by, "
-             + short_number(as_force(scales, scales.defect)) + " before and "
-             + short_number(as_force(scales, defect_)) + " after as a force";
+      return stop_astray(NewtonReason::line_search,
+                         line_search_in_words(scales, rest()), u);
     }
 
     /** Stop without an answer, with what may be behind it. */
@@ -809,7 +720,11 @@ namespace abut
     {
       const std::string jumps = in_words(contact_.checks().partner_changes());
       return stop(reason,
-                  seen + about_negative_steps() + about_sliding(u) + jumps,
+                  seen
+                      + negative_steps_in_words(result_.n_negative_steps,
+                                                result_.n_steps)
+                      + sliding_in_words(contact_.checks().step_motion(goal(u)))
+                      + jumps,
                   jumps.empty() ? ABUT_FAILURE_NEWTON : ABUT_FAILURE_PARTNERS);
     }
 
@@ -829,54 +744,8 @@ namespace abut
         events_.missed(missed.size());
       if (result_.n_searches < parameters_.max_searches)
         return true;
-      return stop_missing(missed);
-    }
-
-    bool stop_missing(const std::vector<Penetration<dim>> &missed)
-    {
-      double depth = 0.;
-      std::size_t n_same_direction = 0, n_same_side = 0;
-      for (const Penetration<dim> &node : missed)
-      {
-        depth = std::max(depth, node.depth);
-        n_same_direction += node.same_direction;
-        n_same_side += node.same_side;
-      }
-      const std::string seen =
-          "Nodes keep on penetrating without a constraint after "
-          + std::to_string(result_.n_searches) + " searches, "
-          + std::to_string(missed.size()) + " of them by up to "
-          + short_number(depth);
-      if (2 * n_same_side > missed.size())
-        return stop(NewtonReason::missed_nodes,
-                    seen
-                        + ": a surface that touches itself has two sides only, "
-                          "and parts that were put on the same one have met, "
-                          "as where three flanks close. Give parts that touch "
-                          "each other boundary ids and pairs of their own.",
-                    ABUT_FAILURE_NO_PARTNER);
-      if (2 * n_same_direction <= missed.size())
-        return stop(NewtonReason::missed_nodes,
-                    seen
-                        + ": use smaller load steps, or a larger reach of the "
-                          "pair.",
-                    ABUT_FAILURE_NO_PARTNER);
       return stop(NewtonReason::missed_nodes,
-                  seen + ". At " + std::to_string(n_same_direction)
-                      + " the outward normals of the surface and of the "
-                        "obstacle point the same way: its material is where "
-                        "the body is, or nodes have come out of it on its far "
-                        "side. Turn the obstacle (Normal, the sign of a "
-                        "distance, Axis or Hollow), or take the side of the "
-                        "body that faces it.",
-                  ABUT_FAILURE_WRONG_SIDE);
-    }
-
-    static std::string short_number(const double value)
-    {
-      char text[32];
-      std::snprintf(text, sizeof(text), "%.3g", value);
-      return text;
+                  missed_in_words(missed, result_.n_searches));
     }
 
     ContactAssembler<dim> &contact_;

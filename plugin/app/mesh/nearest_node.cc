@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "nearest_node.h"
 
-#include "shim/by_element.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -24,16 +24,9 @@ namespace abut::app
     Candidate best;
     best.fill(0.);
     best[0] = std::numeric_limits<double>::infinity();
-    const shim::ByElement nodes_of(
-        dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              mapping, fe.base_element(0),
-              dealii::Quadrature<dim>(
-                  fe.base_element(0).get_unit_support_points()),
-              dealii::update_quadrature_points);
-        });
+    const auto nodes_of = shim::cell_values(
+        mapping, dof_handler, shim::nodes<dim>,
+        dealii::update_quadrature_points, shim::ValuesOf::component);
     std::vector<dealii::types::global_dof_index> dofs;
     for (const auto &cell : dof_handler.active_cell_iterators())
     {

@@ -4,7 +4,7 @@
 #include "body_motion.h"
 
 #include "nodal_places.h"
-#include "shim/by_element.h"
+#include "shim/values_by_element.h"
 #include "time_status.h"
 
 #include <abut/dealii/versions.h>
@@ -37,16 +37,9 @@ namespace abut::app
   BodyMotion<dim>::turns_at(const la::Vector *displacement) const
   {
     const auto &owned = problem_.dof_handler.locally_owned_dofs();
-    const shim::ByElement places_of(
-        problem_.dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              problem_.mapping, fe.base_element(0),
-              dealii::Quadrature<dim>(
-                  fe.base_element(0).get_unit_support_points()),
-              dealii::update_quadrature_points);
-        });
+    const auto places_of = shim::cell_values(
+        problem_.mapping, problem_.dof_handler, shim::nodes<dim>,
+        dealii::update_quadrature_points, shim::ValuesOf::component);
     const shim::ByElement unknowns_of(problem_.dof_handler, nodal_places<dim>);
     std::vector<la::Vector> result(dim == 2 ? 1 : 3, problem_.vector());
     std::vector<dealii::types::global_dof_index> dofs;

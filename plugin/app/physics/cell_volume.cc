@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cell_volume.h"
-#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
+#include "shim/values_by_element.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -36,16 +36,10 @@ namespace abut::app
                     [](const auto &entry)
                     { return entry.second->cell_volume() == nullptr; }))
       return;
-    const shim::ByElement points_of(
-        dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              mapping, fe, shim::gauss(fe, fe.degree + 1),
-              dealii::update_values | dealii::update_gradients
-                  | dealii::update_quadrature_points
-                  | dealii::update_JxW_values);
-        });
+    const auto points_of = shim::cell_values(
+        mapping, dof_handler, shim::mass_rule<dim>,
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points | dealii::update_JxW_values);
     const dealii::FEValuesExtractors::Vector field(0);
     CellState<dim> state;
     of_cell_.resize(dof_handler.get_triangulation().n_active_cells());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include "contact_traction.h"
-#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/distribute.h>
 #include <abut/dealii/versions.h>
@@ -42,15 +42,10 @@ namespace abut::app
       la::Vector weights(const dealii::AffineConstraints<double> &hanging,
                          const Materials<dim> &materials) const
       {
-        const shim::ByElement points_of(
-            dof_handler,
-            [&](const dealii::FiniteElement<dim> &fe)
-            {
-              return dealii::FEFaceValues<dim>(
-                  mapping, fe, shim::face_gauss(fe, fe.degree + 1),
-                  dealii::update_values | dealii::update_quadrature_points
-                      | dealii::update_JxW_values);
-            });
+        const auto points_of = shim::face_values(
+            mapping, dof_handler, shim::face_mass_rule<dim>,
+            dealii::update_values | dealii::update_quadrature_points
+                | dealii::update_JxW_values);
         la::Vector open = open_vector();
         dealii::Vector<double> local;
         for_each_face(

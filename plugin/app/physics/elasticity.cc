@@ -50,21 +50,12 @@ namespace abut::app
       const auto flags = dealii::update_values | dealii::update_gradients
                          | dealii::update_JxW_values
                          | dealii::update_quadrature_points;
-      const shim::ByElement all_points(
-          problem.dof_handler,
-          [&](const dealii::FiniteElement<dim> &fe)
-          {
-            return dealii::FEValues<dim>(problem.mapping, fe.base_element(0),
-                                         shim::gauss(fe, fe.degree + 1), flags);
-          });
-      const shim::ByElement fields(
-          problem.dof_handler,
-          [&](const dealii::FiniteElement<dim> &fe)
-          {
-            return dealii::FEValues<dim>(
-                problem.mapping, fe, shim::gauss(fe, fe.degree + 1),
-                dealii::update_values | dealii::update_gradients);
-          });
+      const auto all_points = shim::cell_values(
+          problem.mapping, problem.dof_handler, shim::mass_rule<dim>, flags,
+          shim::ValuesOf::component);
+      const auto fields = shim::cell_values(
+          problem.mapping, problem.dof_handler, shim::mass_rule<dim>,
+          dealii::update_values | dealii::update_gradients);
       const dealii::FEValuesExtractors::Vector all(0);
       CellState<dim> state;
       std::vector<global_dof_index> dofs;
@@ -254,15 +245,11 @@ namespace abut::app
                                           la::Vector &load,
                                           la::Vector &all) const
   {
-    const shim::ByElement values_of(
-        this->dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              this->mapping, fe.base_element(0), shim::gauss(fe, fe.degree + 1),
-              dealii::update_values | dealii::update_quadrature_points
-                  | dealii::update_JxW_values);
-        });
+    const auto values_of = shim::cell_values(
+        this->mapping, this->dof_handler, shim::mass_rule<dim>,
+        dealii::update_values | dealii::update_quadrature_points
+            | dealii::update_JxW_values,
+        shim::ValuesOf::component);
     const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
     dealii::Vector<double> force;
     std::vector<global_dof_index> dofs;
@@ -304,17 +291,11 @@ namespace abut::app
                                             la::Vector &load,
                                             la::Vector &all) const
   {
-    const shim::ByElement values_of(
-        this->dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEFaceValues<dim>(
-              this->mapping, fe.base_element(0),
-              shim::face_gauss(fe, fe.degree + 1),
-              dealii::update_values | dealii::update_JxW_values
-                  | dealii::update_normal_vectors
-                  | dealii::update_quadrature_points);
-        });
+    const auto values_of = shim::face_values(
+        this->mapping, this->dof_handler, shim::face_mass_rule<dim>,
+        dealii::update_values | dealii::update_JxW_values
+            | dealii::update_normal_vectors | dealii::update_quadrature_points,
+        shim::ValuesOf::component);
     const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
     dealii::Vector<double> force;
     std::vector<global_dof_index> dofs;

@@ -4,8 +4,8 @@
 
 #include "app/input/input_error.h"
 #include "cell_volume.h"
-#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -79,15 +79,11 @@ namespace abut::app
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
       std::vector<bool> seen(owned.n_elements(), false);
       std::vector<dealii::types::global_dof_index> dofs;
-      const shim::ByElement nodes_of(
-          dof_handler,
+      const auto nodes_of = shim::cell_values(
+          mapping, dof_handler,
           [&](const dealii::FiniteElement<dim> &fe)
-          {
-            return dealii::FEValues<dim>(
-                mapping, fe,
-                dealii::Quadrature<dim>(fe.get_unit_support_points()),
-                dealii::update_quadrature_points);
-          });
+          { return dealii::Quadrature<dim>(fe.get_unit_support_points()); },
+          dealii::update_quadrature_points);
       double largest = 0;
       for (const auto &cell : dof_handler.active_cell_iterators())
       {
@@ -205,16 +201,12 @@ namespace abut::app
                          const dealii::Function<dim> &exact,
                          const Materials<dim> *materials)
   {
-    const shim::ByElement points_of(
-        dof_handler,
+    const auto points_of = shim::cell_values(
+        mapping, dof_handler,
         [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              mapping, fe, shim::gauss(fe, fe.degree + 2),
-              dealii::update_values | dealii::update_gradients
-                  | dealii::update_quadrature_points
-                  | dealii::update_JxW_values);
-        });
+        { return shim::gauss(fe, fe.degree + 2); },
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points | dealii::update_JxW_values);
     PointErrors<dim> errors(dof_handler.get_fe().n_components());
     double l2 = 0;
     double h1 = 0;

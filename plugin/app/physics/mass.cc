@@ -3,8 +3,8 @@
 
 #include "app/input/input_error.h"
 #include "nodal_places.h"
-#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
+#include "shim/values_by_element.h"
 #include "whole_matrix.h"
 
 #include <abut/dealii/versions.h>
@@ -108,16 +108,11 @@ namespace abut::app
   la::Matrix mass_matrix(const DiscreteProblem<dim> &problem,
                          const MassData<dim> &data)
   {
-    const shim::ByElement values_of(
-        problem.dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(problem.mapping, fe.base_element(0),
-                                       shim::gauss(fe, fe.degree + 1),
-                                       dealii::update_values
-                                           | dealii::update_JxW_values
-                                           | dealii::update_quadrature_points);
-        });
+    const auto values_of = shim::cell_values(
+        problem.mapping, problem.dof_handler, shim::mass_rule<dim>,
+        dealii::update_values | dealii::update_JxW_values
+            | dealii::update_quadrature_points,
+        shim::ValuesOf::component);
     dealii::IndexSet touching(problem.dof_handler.n_dofs());
     if (!data.candidates.empty())
       touching = dealii::DoFTools::extract_boundary_dofs(

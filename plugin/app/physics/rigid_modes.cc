@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "rigid_modes.h"
 
-#include "shim/by_element.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -130,16 +130,9 @@ namespace abut::app
   {
     const bool rings = dim == 2 && plane == PlaneModel::axisymmetric;
     const auto boxes = bounding_boxes(dof_handler, n_bodies, body_of);
-    const shim::ByElement nodes_of(
-        dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEFaceValues<dim>(
-              mapping, fe.base_element(0),
-              dealii::Quadrature<dim - 1>(
-                  fe.base_element(0).get_unit_face_support_points()),
-              dealii::update_quadrature_points);
-        });
+    const auto nodes_of = shim::face_values(
+        mapping, dof_handler, shim::face_nodes<dim>,
+        dealii::update_quadrature_points, shim::ValuesOf::component);
     const std::size_t n =
         motions<dim>(dealii::Tensor<1, dim>(), 0, rings).size();
     std::vector<double> grams(n * n * n_bodies, 0.);

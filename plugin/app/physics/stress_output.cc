@@ -4,7 +4,7 @@
 
 #include "nodal_means.h"
 #include "postprocessed.h"
-#include "shim/by_element.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -120,22 +120,12 @@ namespace abut::app
     void add_stresses(const dealii::Mapping<dim> &mapping,
                       const dealii::DoFHandler<dim> &dof_handler,
                       const la::Vector &displacement,
-                      const Materials<dim> &materials,
-                      const dealii::DoFHandler<dim> &scalar,
-                      NodalMeans<dim> &means)
+                      const Materials<dim> &materials, NodalMeans<dim> &means)
     {
-      unsigned int number = 0;
-      const shim::ByElement points_of(
-          dof_handler,
-          [&](const dealii::FiniteElement<dim> &fe)
-          {
-            return dealii::FEValues<dim>(
-                mapping, fe,
-                dealii::Quadrature<dim>(
-                    scalar.get_fe(number++).get_unit_support_points()),
-                dealii::update_values | dealii::update_gradients
-                    | dealii::update_quadrature_points);
-          });
+      const auto points_of =
+          shim::cell_values(mapping, dof_handler, shim::vertex_rule<dim>,
+                            dealii::update_values | dealii::update_gradients
+                                | dealii::update_quadrature_points);
       const CellMaterials<dim> of_cells(mapping, dof_handler, displacement,
                                         materials);
       const dealii::FEValuesExtractors::Vector field(0);
@@ -176,7 +166,7 @@ namespace abut::app
     hanging.close();
     const unsigned int n = n_stresses<dim>();
     NodalMeans<dim> means(scalar, n);
-    add_stresses(mapping, dof_handler, displacement, materials, scalar, means);
+    add_stresses(mapping, dof_handler, displacement, materials, means);
     std::vector<la::Vector> fields = means.means();
     fields.emplace_back(scalar.locally_owned_dofs(),
                         versions::communicator(scalar));

@@ -49,7 +49,7 @@ namespace abut::app
    * volume. Bodies that share no node do not mix.
    *
    * @param displacement ghosted, belongs to @p dof_handler
-   * @param scalar unknowns of the result, of the same or a lower degree
+   * @param scalar unknowns of the result, of elements of degree 1
    * @return with ghosts: the components xx, yy, (zz,) then xy (, xz, yz), then
    * in two dimensions the one out of plane, and von Mises' equivalent stress
    * last, of the mean stress.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "stretches.h"
 
-#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 #include "shim/principal_values.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -45,22 +45,12 @@ namespace abut::app
                            const la::Vector &displacement,
                            const Materials<dim> &materials)
   {
-    const shim::ByElement points_of(
-        dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              mapping, fe, shim::gauss(fe, fe.degree + 1),
-              dealii::update_values | dealii::update_gradients
-                  | dealii::update_quadrature_points);
-        });
-    const shim::ByElement corners_of(dof_handler,
-                                     [&](const dealii::FiniteElement<dim> &fe)
-                                     {
-                                       return dealii::FEValues<dim>(
-                                           mapping, fe, shim::vertex_rule(fe),
-                                           dealii::update_gradients);
-                                     });
+    const auto points_of =
+        shim::cell_values(mapping, dof_handler, shim::mass_rule<dim>,
+                          dealii::update_values | dealii::update_gradients
+                              | dealii::update_quadrature_points);
+    const auto corners_of = shim::cell_values(
+        mapping, dof_handler, shim::vertex_rule<dim>, dealii::update_gradients);
     const dealii::FEValuesExtractors::Vector field(0);
     std::vector<dealii::Tensor<1, dim>> u;
     std::vector<dealii::Tensor<2, dim>> du, at_corners;

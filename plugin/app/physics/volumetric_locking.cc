@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "volumetric_locking.h"
-#include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -51,16 +51,10 @@ namespace abut::app
                             const la::Vector &displacement,
                             const Materials<dim> &materials)
   {
-    const shim::ByElement points_of(
-        dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEValues<dim>(
-              mapping, fe, shim::gauss(fe, fe.degree + 1),
-              dealii::update_values | dealii::update_gradients
-                  | dealii::update_quadrature_points
-                  | dealii::update_JxW_values);
-        });
+    const auto points_of = shim::cell_values(
+        mapping, dof_handler, shim::mass_rule<dim>,
+        dealii::update_values | dealii::update_gradients
+            | dealii::update_quadrature_points | dealii::update_JxW_values);
     double energies[2] = {0., 0.};
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() && !shim::is_simplex(cell->get_fe()))

@@ -3,7 +3,7 @@
 
 #include "app/input/collective.h"
 #include "app/restart/disk.h"
-#include "shim/by_element.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/versions.h>
 
@@ -42,16 +42,9 @@ namespace abut::app
                         const dealii::DoFHandler<dim> &dof_handler,
                         const std::vector<NodalColumn> &columns)
     {
-      const shim::ByElement nodes_of(
-          dof_handler,
-          [&](const dealii::FiniteElement<dim> &fe)
-          {
-            return dealii::FEValues<dim>(
-                mapping, fe.base_element(0),
-                dealii::Quadrature<dim>(
-                    fe.base_element(0).get_unit_support_points()),
-                dealii::update_quadrature_points);
-          });
+      const auto nodes_of = shim::cell_values(
+          mapping, dof_handler, shim::nodes<dim>,
+          dealii::update_quadrature_points, shim::ValuesOf::component);
       const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
       std::vector<bool> seen(owned.n_elements(), false);
       std::vector<dealii::types::global_dof_index> dofs;

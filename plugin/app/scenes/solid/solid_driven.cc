@@ -3,7 +3,7 @@
 // steps is that of the bodies.
 #include "solid_model.h"
 
-#include "shim/by_element.h"
+#include "shim/values_by_element.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>
@@ -98,16 +98,9 @@ namespace abut::app
   {
     pairs->place_obstacle(obstacle, displacement);
     const la::Vector u = elasticity.ghosted(run.u);
-    const shim::ByElement nodes_of(
-        elasticity.dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        {
-          return dealii::FEFaceValues<dim>(
-              elasticity.mapping, fe,
-              dealii::Quadrature<dim - 1>(
-                  fe.base_element(0).get_unit_face_support_points()),
-              dealii::update_values | dealii::update_quadrature_points);
-        });
+    const auto nodes_of = shim::face_values(
+        elasticity.mapping, elasticity.dof_handler, shim::face_nodes<dim>,
+        dealii::update_values | dealii::update_quadrature_points);
     const dealii::FEValuesExtractors::Vector all(0);
     std::vector<dealii::Tensor<1, dim>> moved;
     std::vector<dealii::Point<dim>> places;

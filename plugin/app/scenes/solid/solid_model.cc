@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_model.h"
 
-#include "app/adapt/between_corners.h"
 #include "app/adapt/elastic_estimator.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
@@ -429,7 +428,7 @@ namespace abut::app
   double SolidModel<dim>::estimate(dealii::Vector<float> &squared) const
   {
     const la::Vector displacement = elasticity.ghosted(run.u);
-    ContactFields fields = contact_fields();
+    const ContactFields fields = contact_fields();
     ElasticEstimatorInput<dim> input{elasticity.mapping, elasticity.dof_handler,
                                      displacement, data.materials};
     for (const auto &[body, force] : data.body_force)
@@ -445,15 +444,6 @@ namespace abut::app
       input.contact = pairs->surfaces();
       input.contact_traction = &fields.traction;
       input.secondary = pairs->secondary();
-      const auto fill = [&](const la::Vector &ghosted, la::Vector field)
-      {
-        fill_between_corners(elasticity.dof_handler, pairs->secondary(),
-                             run.method.multiplier_degree == 1, fields.status,
-                             ghosted, field);
-        return elasticity.ghosted_field(field);
-      };
-      fields.pressure = fill(fields.pressure, run.contact.results().pressure());
-      fields.gap = fill(fields.gap, run.contact.results().gap());
       input.pressure = &fields.pressure;
       // With a target, what the law leaves open is an error of its own; what a
       // user's own law leaves open is none.

@@ -83,6 +83,8 @@ namespace abut::app
         for (const CubeParameter &each : of_cubes)
           if (!file.get(each.path, "").empty())
             given_of_cubes.push_back(each);
+        has_quadratic_multipliers =
+            file.get("Method/Multiplier degree", "") == "0";
       }
 
     private:
@@ -146,6 +148,12 @@ namespace abut::app
           tri6.push_back(
               dim == 3 && parameters.simplex_degree == 2
               && meshes.may_have_simplices(pair.secondary, parameters.bodies));
+        if (has_quadratic_multipliers && !tri6.empty()
+            && std::count(tri6.begin(), tri6.end(), false) == 0)
+          throw InputError("Method/Multiplier degree",
+                           "0 is degree 2 here, and the shape functions of "
+                           "quadratic triangles have no weight at the corners: "
+                           "leave it out, multipliers have degree 1.");
         const char *why = nullptr;
         if (std::count(tri6.begin(), tri6.end(), true) > 0
             && this->method.discretisation
@@ -213,6 +221,7 @@ namespace abut::app
       SearchParameters search;
       std::optional<abut_kinematics> given_kinematics;
       std::vector<CubeParameter> given_of_cubes;
+      bool has_quadratic_multipliers = false; ///< given by the file
       BodyMeshes<dim> meshes;
     };
   } // namespace
