@@ -6,7 +6,10 @@ Prints the errors of patch tests with meshes that do not match, on 1 to 3 ranks;
 of the press fit of rings by level, whose displacement is Lame's; the stiffness of
 a cantilever of linear and quadratic tetrahedra with what ABUT-F16 reports; and
 the force of a rigid ball on a cube divided by that on a half space, on meshes
-graded by hand and adaptive ones. Fine meshes of hexahedra have 1.0524.
+graded by hand and adaptive ones. Fine meshes of hexahedra have 1.0524. At the
+end iterations of the last mesh and processor seconds of linear systems with
+algebraic and geometric multigrid, hexahedra beside tetrahedra, and of
+constraints that are eliminated or solved for as saddle points.
 
     tests/bench/tetrahedra.py build/release/abut
 """
@@ -149,16 +152,46 @@ def print_hertz(bench):
     def show(what, settings):
         summary = bench.run(scene, settings)
         print(f"  {what}, {summary['dofs']} unknowns: "
-              f"{summary['contact_force'] / half_space:.4f}", flush=True)
+              f"{-summary['pair_1_force'][2] / half_space:.4f}", flush=True)
     for degree, level in ((1, 0), (1, 1), (2, 0), (2, 1)):
         show(f"graded, degree {degree}, level {level}",
              {"Body 1/Mesh/File": file, "Solid/Degree": degree,
               "Refinement/Level": level, "Refinement/Adaptive cycles": 0})
-    for level in (1, 2):
-        show(f"adaptive from level {level}", {"Refinement/Level": level})
+    for cycles in (4, 5, 6):
+        show(f"adaptive, {cycles} cycles",
+             {"Refinement/Adaptive cycles": cycles})
     show("adaptive, graded first mesh",
          {"Body 1/Mesh/File": file, "Refinement/Level": 0,
           "Refinement/Adaptive cycles": 4})
+
+
+def print_systems(bench):
+    print("linear systems: unknowns, iterations, seconds of them, of the run")
+
+    def show(what, scene, settings):
+        summary = bench.run(SCENES / scene, {"Output/Fields": "false",
+                                             **settings})
+        solve = summary["sections"]["solve"]["processor_seconds"]
+        print(f"  {what}: {summary['dofs']}, "
+              f"{summary['linear_iterations_on_last_level']}, {solve:.2f}, "
+              f"{summary['processor_seconds']:.2f}; "
+              f"{summary['linear_solver']}", flush=True)
+    for solver in ("iterative", "geometric"):
+        for what, scene, settings in (
+                ("tetrahedra, degree 2", "tetrahedra.prm",
+                 {"Refinement/Level": 3, "Refinement/Adaptive cycles": 0}),
+                ("tetrahedra, degree 1", "tetrahedra.prm",
+                 {"Solid/Degree": 1, "Refinement/Level": 4,
+                  "Refinement/Adaptive cycles": 0}),
+                ("adaptive, degree 2", "tetrahedra.prm",
+                 {"Refinement/Adaptive cycles": 6}),
+                ("hexahedra, degree 2", "elastic-sphere.prm",
+                 {"Solid/Degree": 2, "Refinement/Level": 4})):
+            show(what, scene, {"Solver/Linear solver": solver, **settings})
+    for what in ("dual mortar", "mortar"):
+        show(f"hexahedra, degree 2, {what}", "two-blocks-3d.prm",
+             {"Solid/Degree": 2, "Refinement/Level": 2,
+              "Method/Discretisation": what})
 
 
 def main():
@@ -168,6 +201,7 @@ def main():
         print_rings(bench)
         print_cantilever(bench)
         print_hertz(bench)
+        print_systems(bench)
 
 
 if __name__ == "__main__":
