@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One look for all pictures: colours that every kind of colour vision tells
+apart, markers and dashes beside them, fonts of 8 pt, and widths of a column or
+a page. Equal data give equal files."""
+import itertools
+import math
+
+import matplotlib
+import numpy
+
+matplotlib.use("Agg")
+from matplotlib import pyplot, ticker  # noqa: E402
+
+COLUMN, PAGE = 84, 174  # mm
+MM = 1 / 25.4           # inches
+
+# Okabe and Ito (2008); the pale ones are for areas.
+BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK, YELLOW = COLOURS = (
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+    "#000000", "#f0e442")
+GREY, PALE = "#7f7f7f", "#e8e8e8"
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+DASHES = ("-", (0, (5, 1.5)), (0, (1, 1.2)), (0, (6, 1.5, 1, 1.5)),
+          (0, (3, 1)), (0, (8, 2, 2, 2)), (0, (1, 2.5)), (0, (4, 1, 1, 1, 1, 1)))
+
+# States of contact points, as in the field `status`: colour, word.
+OPEN, STICK, SLIP = PALE, BLUE, VERMILION
+FIELD_MAP = "viridis"
+
+matplotlib.rcParams.update({
+    "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8,
+    "axes.labelsize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7,
+    "legend.fontsize": 7, "figure.titlesize": 9, "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.6, "axes.edgecolor": "#404040",
+    "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.color": "#dcdcdc", "grid.linewidth": 0.4,
+    "axes.axisbelow": True, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
+    "lines.linewidth": 1.2, "lines.markersize": 3.2, "lines.markeredgewidth": 0.6,
+    "legend.frameon": False, "legend.handlelength": 2.6,
+    "axes.formatter.use_mathtext": True, "axes.formatter.limits": (-3, 4),
+    "axes.formatter.useoffset": False,
+    "savefig.dpi": 200, "figure.dpi": 100, "figure.constrained_layout.use": True,
+    "svg.hashsalt": "abut", "svg.fonttype": "path", "figure.facecolor": "white"})
+
+
+def curve_style(number):
+    """Colour, marker and dashes of curve 0, 1, ... of a picture."""
+    return {"color": COLOURS[number % 7], "marker": MARKERS[number % 8],
+            "linestyle": DASHES[number % 8]}
+
+
+def line_style(number):
+    """The same for curves with too many points for markers."""
+    return {"color": COLOURS[number % 7], "linestyle": DASHES[number % 8]}
+
+
+def figure(width, aspect=0.62, rows=1, columns=1, **more):
+    """Figure and axes, `width` mm wide, each row `aspect` of it high."""
+    return pyplot.subplots(rows, columns, squeeze=False, figsize=(
+        width * MM, width * aspect * rows * MM), **more)
+
+
+def named(artist, name):
+    """Give a curve or field a name, by which drawn_data() and the SVG know
+    it."""
+    artist.set_gid(name)
+    return artist
+
+
+def drawn_data(of_figure):
+    """The numbers that are drawn, by name: rows x, y of curves, and corners
+    and values of fields."""
+    result = {}
+    for artist in of_figure.findobj(lambda each: each.get_gid()):
+        if hasattr(artist, "get_xydata"):
+            result[artist.get_gid()] = numpy.asarray(artist.get_xydata())
+        elif hasattr(artist, "get_segments"):
+            result[artist.get_gid()] = artist.get_segments()
+        elif hasattr(artist, "get_array"):
+            result[artist.get_gid()] = (
+                [path.vertices for path in artist.get_paths()],
+                artist.get_array())
+    return result
+
+
+def legend(axes, **more):
+    """A legend where it hides no data: above the axes, in columns."""
+    handles, labels = axes.get_legend_handles_labels()
+    if not handles:
+        return None
+    width = axes.get_figure().get_size_inches()[0] / MM
+    letters = max(len(label) for label in labels) + 8
+    columns = max(1, min(len(labels), int(width / (1.5 * letters))))
+    return axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0),
+                       ncol=columns, borderaxespad=0.3, **more)
+
+
+def logarithmic(axis):
+    """A logarithmic axis with powers of ten; on a short one also 2 and 5
+    times them, and plain numbers."""
+    name = axis.axis_name
+    getattr(axis.axes, f"set_{name}scale")("log")
+    low, high = getattr(axis.axes, f"get_{name}lim")()
+    decades = math.log10(high / low)
+    if decades <= 2:
+        axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(ticker.FuncFormatter(
+            lambda value, _: number(value)))
+        axis.set_minor_formatter(ticker.NullFormatter())
+    else:
+        step = max(1, math.ceil(decades / 8))
+        axis.set_major_locator(ticker.LogLocator(base=10 ** step, numticks=12))
+        axis.set_minor_locator(ticker.LogLocator(
+            subs=range(2, 10), numticks=100) if step == 1
+            else ticker.LogLocator(numticks=100))
+        axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def whole_numbers(axis):
+    axis.set_major_locator(ticker.MaxNLocator(integer=True))
+
+
+def number(value, digits=3):
+    """A number for people: 0.02, 1500, 3·10⁻⁶ as mathematics."""
+    if value == 0 or not math.isfinite(value):
+        return f"{value:g}"
+    power = math.floor(math.log10(abs(value)) + 1e-12)
+    if -4 < power < 5:
+        return f"{value:.{digits}g}" if power < digits else f"{value:.0f}"
+    mantissa = f"{value / 10.0 ** power:.{digits}g}"
+    return (f"$10^{{{power}}}$" if mantissa == "1"
+            else f"${mantissa}\\cdot10^{{{power}}}$")
+
+
+def slope_triangle(axes, x, y, slope, width=2.0, text=None):
+    """A triangle with one side of the slope `slope` on logarithmic axes; its
+    lower left corner is (x, y)."""
+    xs = numpy.array([x, x * width, x * width, x])
+    ys = numpy.array([y, y, y * width ** slope, y])
+    axes.plot(xs, ys, color=GREY, linewidth=0.7, linestyle="-", marker="")
+    axes.annotate(text or f"{slope:g}", (x * width, y * width ** (slope / 2)),
+                  textcoords="offset points", xytext=(3, 0), fontsize=7,
+                  va="center", color=GREY)
+
+
+def letters(all_axes):
+    """(a), (b), ... at the axes of a figure with several."""
+    if len(all_axes) > 1:
+        for axes, letter in zip(all_axes, itertools.count()):
+            axes.text(0.0, 1.0, f"({chr(97 + letter)})", fontweight="bold",
+                      transform=axes.transAxes, ha="right", va="bottom")
+
+
+def save(of_figure, folder, name):
+    """Write NAME.svg and NAME.png; returns the paths. The figure is closed."""
+    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
+    of_figure.savefig(paths[0], metadata={"Date": None, "Creator": None})
+    of_figure.savefig(paths[1], metadata={"Software": None})
+    pyplot.close(of_figure)
+    return paths
