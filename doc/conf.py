@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The manual as a site: `cmake --build build/release --target site`. All it needs is
+in Debian, and the pages need no network: formulas are set by KaTeX, which is copied
+beside them."""
+import os
+import re
+
+from pygments import lexer, token
+
+project = "Abut"
+author = "The Abut authors"
+copyright = author
+version = release = os.environ.get("ABUT_VERSION", "")
+html_title = f"Abut {version}".strip()
+
+extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx_copybutton",
+              "sphinx_inline_tabs", "sphinxcontrib.bibtex"]
+source_suffix = {".md": "markdown"}
+root_doc = "index"
+# README.md lists the documents for readers of the repository.
+exclude_patterns = ["README.md", "examples"]
+nitpicky = True
+
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+myst_heading_anchors = 4
+myst_dmath_double_inline = True
+# The notebook links to sources; pages of the site do not have them.
+suppress_warnings = ["download.not_readable"]
+
+bibtex_bibfiles = ["references.bib"]
+bibtex_reference_style = "author_year"
+bibtex_default_style = "plain"
+
+katex = os.environ.get("ABUT_KATEX", "/usr/share/javascript/katex")
+mathjax_path = "katex.min.js"
+mathjax_options = {"defer": "defer"}
+html_theme = "furo"
+html_static_path = ["site", katex]
+html_css_files = ["katex.min.css", "abut.css"]
+html_js_files = [("contrib/auto-render.js", {"defer": "defer"}),
+                 ("formulas.js", {"defer": "defer"})]
+html_copy_source = False
+html_show_sphinx = False
+copybutton_prompt_text = "$ "
+
+
+class Parameters(lexer.RegexLexer):
+    """Parameter files of deal.II."""
+    name = "prm"
+    tokens = {"root": [
+        (r"#.*$", token.Comment),
+        (r"^(\s*)(subsection)( .*?)$",
+         lexer.bygroups(token.Text, token.Keyword, token.Name.Namespace)),
+        (r"^(\s*)(end)\s*$", lexer.bygroups(token.Text, token.Keyword)),
+        (r"^(\s*)(set)( [^=\n]*)(=)([^#\n]*)",
+         lexer.bygroups(token.Text, token.Keyword, token.Name.Attribute,
+                        token.Operator, token.String)),
+        (r".|\n", token.Text)]}
+
+
+def links_to_sources(app, docname, source):
+    """Links that leave the folder of documents are names of files in the site."""
+    source[0] = re.sub(r"\[([^\]]+)\]\((?:\.\./)+(?:include|plugin|tests|prm)/[^)]*\)",
+                       r"`\1`", source[0])
+
+
+def setup(app):
+    app.add_lexer("prm", Parameters)
+    app.connect("source-read", links_to_sources)

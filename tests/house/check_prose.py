@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Language of the manual: sentences of 20 words in the mean on each page, at most 5 %
+of them above 35 words, and none of the words that the style excludes. Reads
+CONTRIBUTING.md and the pages of doc that are not listed in NOTEBOOK; code, formulas,
+tables and headings are no sentences.
+
+    tests/house/check_prose.py [--table]"""
+import argparse
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MEAN, LONG, SHARE = 20, 35, 0.05
+# Documents before the manual, which are to be rewritten or moved.
+NOTEBOOK = set("""README c-interface changes charts conventions coupling design dynamics
+economy extend failures finite-strain friction geometry inf-sup install judge
+large-sliding mesh-files methods parameters peers performance point-mass restart scaling
+search-command contact-search solid solvers step-41 step-42 tests your-own-law
+your-program""".split())
+
+WORDS = [(re.compile(pattern, re.I), use) for pattern, use in (
+    (r"\b(?:is|are|was|be) told\b|\btells?\b|\bknows\b|\basks\b",
+     "reports, prints, warns, requires"),
+    (r"\bsays\b", "reports, prints, states"),
+    (r"\bholds?\b|\bheld\b", "constrain, fix, satisfy, keep"),
+    (r"\banew\b", "recompute, again"),
+    (r"\bbeside\b", "compared with, relative to, next to"),
+    (r"\bthere to (?:be|see)\b", "for comparison only"),
+    (r"\bundeformed\b|\bpresent places?\b", "reference or current configuration"),
+    (r"\brefuse[sd]?\b", "is an error"),
+    (r"\bfloating\b|\bloose\b", "body without supports"),
+    (r"\bnone is\b|\bis none\b|\bis no number\b", "not finite, does not exist"),
+    (r"\bis off by\b", "the error is"),
+    (r"\bbusy\b|\b20\d\d-\d\d-\d\d\b", "no diary"),
+    (r"(?<![\w.])\.\d", "0.3, not .3"),
+)]
+OPENING = re.compile(r"^(?:Of|Those|What)\b(?!.*\?$)")
+
+MASKS = [(re.compile(pattern, flags), use) for pattern, flags, use in (
+    (r"^```.*?^```$", re.M | re.S, "\n\n"),
+    (r"<!--.*?-->", re.S, "\n\n"),
+    (r"^\$\$.*?^\$\$", re.M | re.S, " FORMULA "),
+    (r"\{cite:\w+\}`[^`]*`", 0, " CITED "),
+    (r"\{\w+\}`[^`]*`", 0, " TERM "),
+    (r"`[^`]*`", 0, " CODE "),
+    (r"\$[^$\n]+\$", 0, " FORMULA "),
+    (r"!\[[^\]]*\]\([^)]*\)", 0, "\n\n"),
+    (r"\[([^\]]*)\]\([^)]*\)", 0, r"\1"),
+    (r"https?://\S+", 0, "LINK"),
+)]
+
+
+def paragraphs(text):
+    for pattern, use in MASKS:
+        text = pattern.sub(use, text)
+    for part in re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", text):
+        part = part.strip()
+        if part and not part.startswith(("#", "|", "(", ":::")):
+            yield re.sub(r"^(?:[-*]|\d+\.|:) +|[*_]{1,2}(?=\w)|(?<=\w)[*_]{1,2}", "",
+                         " ".join(part.split()))
+
+
+def sentences(text):
+    for part in paragraphs(text):
+        for sentence in re.split(r"(?<=[.!?:])\s+(?=[A-Z(\"])", part):
+            words = re.findall(r"[\w'/.-]*\w[\w'/.-]*", sentence)
+            if len(words) > 1:
+                yield sentence, len(words)
+
+
+def findings(text):
+    for sentence, _ in sentences(text):
+        for pattern, use in WORDS:
+            found = pattern.search(sentence)
+            if found:
+                yield f"{found.group()!r}, write: {use}", sentence
+        if OPENING.match(sentence):
+            yield "a clause in place of a noun", sentence
+
+
+def pages():
+    yield ROOT / "CONTRIBUTING.md"
+    for page in sorted((ROOT / "doc").rglob("*.md")):
+        name = page.relative_to(ROOT / "doc")
+        if name.parts[0] not in ("examples", "pictures") and \
+                str(name)[:-3] not in NOTEBOOK:
+            yield page
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--table", action="store_true",
+                           help="print the statistics of each page")
+    table = arguments.parse_args().table
+    bad, total = 0, 0
+    for page in pages():
+        text, name = page.read_text(encoding="utf-8"), page.relative_to(ROOT)
+        lengths = [n for _, n in sentences(text)]
+        if not lengths:
+            continue
+        mean = sum(lengths) / len(lengths)
+        share = sum(n > LONG for n in lengths) / len(lengths)
+        total += sum(lengths)
+        if table:
+            print(f"{str(name):40} {len(lengths):5} sentences, mean {mean:4.1f},"
+                  f" {100 * share:4.1f} % above {LONG}, {sum(lengths)} words")
+        if mean > MEAN or share > SHARE:
+            print(f"{name}: mean {mean:.1f} words, {100 * share:.0f} % above {LONG}")
+            bad += 1
+        for what, sentence in findings(text):
+            print(f"{name}: {what}: {sentence[:150]}")
+            bad += 1
+    if table:
+        print(f"{total} words of prose")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
