@@ -21,7 +21,7 @@ root_doc = "index"
 exclude_patterns = ["README.md", "examples"]
 nitpicky = True
 
-myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+myst_enable_extensions = ["dollarmath", "amsmath", "html_image"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
 # The notebook links to sources; pages of the site do not have them.

@@ -173,7 +173,7 @@ def draw_buckets(folder):
 
 
 def draw_detection(folder):
-    figure, axes = style.figure(style.PAGE, 0.32, 1, 3)
+    figure, axes = style.figure(style.PAGE, 0.29, 1, 3)
     radii, projection, ranking = axes.flat
     # Steps 6, 10 and 11.
     bare(radii, (-1.3, 3.3), (-1.4, 2.3))
@@ -236,7 +236,7 @@ def draw_detection(folder):
         ranking.plot(*zip(node, foot), linewidth=0.9,
                      linestyle="-" if i == best[1] else "--",
                      color=style.GREEN if i == best[1] else style.GREY)
-        place = {0: (-0.75, 0.5), 1: (0.5, 0.25), 2: (0.85, 0.75)}[i]
+        place = {0: (-0.75, 0.5), 1: (-0.08, 0.2), 2: (0.85, 0.75)}[i]
         ranking.text(*place, f"{numpy.linalg.norm(node - foot):.2f}", fontsize=7,
                      color=style.GREEN if i == best[1] else style.GREY)
     ranking.plot(*node, "o", color=style.VERMILION, markersize=5)

@@ -8,11 +8,13 @@ folder with a link to prm and the program in PATH:
 The first line of each block of code gives its intent:
 
     ```sh {run}         commands; the exit code must be 0, or N with {run N}
+    ```text {output}    what the commands before have printed: lines of it in their
+                        order, words as they are, numbers to 1e-5 of their size
     ```prm {check}      a scene, read by `abut check`
     ```c {compile}      a file in C11, compiled with the public headers
     ```text {show}      for reading only
 
-Below a block a line `<!-- expect FILE KEY VALUE TOLERANCE -->` compares a number of
+{check NAME} and {show NAME} also write the block into a file of that name. Below a block a line `<!-- expect FILE KEY VALUE TOLERANCE -->` compares a number of
 a summary.json, or several (VALUE with commas), with an absolute tolerance. A block without intent is an error."""
 import argparse
 import json
@@ -27,13 +29,13 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SECONDS = 120  # a block takes 5 s at most; this is for a machine with other work
 LINE = re.compile(r"^(?P<fence>```+)(?P<info>.*)$|^<!-- expect (?P<expect>.*) -->$")
-INFO = re.compile(r"^(?P<language>\w+) \{(?P<intent>run|check|compile|show)"
-                  r"(?: (?P<code>\d+))?\}$")
+INFO = re.compile(r"^(?P<language>\w+) \{(?P<intent>run|output|check|compile|show)"
+                  r"(?: (?P<more>[\w.-]+))?\}$")
 
 
 def steps(text):
-    """Blocks (line, language, intent, exit code, text) and expectations (line, None,
-    words) of a page."""
+    """Blocks of a page: line, intent, language, word behind the intent or None,
+    text. An expectation is a block, too."""
     lines = text.split("\n")
     n = 0
     while n < len(lines):
@@ -42,7 +44,7 @@ def steps(text):
         if not found:
             continue
         if found["expect"]:
-            yield begin, None, "expect", 0, found["expect"].split()
+            yield begin, "expect", None, None, found["expect"]
             continue
         body = []
         while lines[n] != found["fence"]:
@@ -54,8 +56,21 @@ def steps(text):
         info = INFO.match(found["info"])
         if not info:
             raise ValueError(f"line {begin}: a block without intent: {found['info']}")
-        yield (begin, info["language"], info["intent"], int(info["code"] or 0),
+        yield (begin, info["intent"], info["language"], info["more"],
                "\n".join(body) + "\n")
+
+
+def same(printed, wanted):
+    """Whether two lines have the same words, numbers to 1e-5."""
+    pairs = list(zip(printed, wanted))
+    for a, b in pairs:
+        try:
+            if abs(float(a) - float(b)) > 1e-5 * abs(float(b)) + 1e-12:
+                return False
+        except ValueError:
+            if a != b:
+                return False
+    return len(printed) == len(wanted)
 
 
 class Page:
@@ -69,31 +84,49 @@ class Page:
         done = subprocess.run(command, cwd=self.folder, env=self.environment,
                               timeout=SECONDS, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        self.printed = done.stdout
         if done.returncode != code:
             return (f"exit code {done.returncode}, expected {code}:\n"
                     + done.stdout[-3000:])
         return None
 
-    def run(self, language, text, code):
+    def run(self, language, code, text):
         if language not in ("sh", "python"):
             return f"{language} cannot be run"
         program = (["bash", "-eu", "-o", "pipefail", "-c", text]
                    if language == "sh" else [sys.executable, "-c", text])
-        return self.call(program, code)
+        return self.call(program, int(code or 0))
 
-    def check(self, language, text, code):
-        (self.folder / "block.prm").write_text(text, encoding="utf-8")
-        return self.call(["abut", "check", "block.prm"], code)
+    def output(self, _, __, text):
+        lines = [re.split(r"[\s,]+", line.strip())
+                 for line in self.printed.split("\n")]
+        for line in text.strip().split("\n"):
+            wanted = re.split(r"[\s,]+", line.strip())
+            while lines and not same(lines[0], wanted):
+                del lines[0]
+            if not lines:
+                return f"'{line}' was not printed, but:\n{self.printed[-3000:]}"
+            del lines[0]
+        return None
 
-    def compile(self, language, text, code):
+    def show(self, _, name, text):
+        if name:
+            (self.folder / name).write_text(text, encoding="utf-8")
+
+    def check(self, language, name, text):
+        name = name or f"block.{language}"
+        self.show(language, name, text)
+        return self.call(["abut", "check", name])
+
+    def compile(self, language, _, text):
         if language != "c":
             return f"{language} cannot be compiled here"
-        (self.folder / "block.c").write_text(text, encoding="utf-8")
+        self.show(language, "block.c", text)
         return self.call(["cc", "-std=c11", "-Wall", "-Werror", "-fsyntax-only",
-                          f"-I{SOURCE}/include", "block.c"], code)
+                          f"-I{SOURCE}/include", "block.c"])
 
-    def expect(self, words):
-        file, key, value, tolerance = words
+    def expect(self, _, __, text):
+        file, key, value, tolerance = text.split()
         found = json.loads((self.folder / file).read_text(encoding="utf-8"))[key]
         numbers = found if isinstance(found, list) else [found]
         wanted = [float(one) for one in value.split(",")]
@@ -111,13 +144,10 @@ def main():
     faults = 0
     with tempfile.TemporaryDirectory() as folder:
         page = Page(pathlib.Path(folder), arguments.abut.resolve())
-        for line, language, intent, code, text in steps(
+        for line, intent, language, more, text in steps(
                 arguments.page.read_text(encoding="utf-8")):
-            if intent == "show":
-                continue
             begin = time.monotonic()
-            fault = (page.expect(text) if intent == "expect"
-                     else getattr(page, intent)(language, text, code))
+            fault = getattr(page, intent)(language, more, text)
             print(f"{arguments.page.name}:{line}: {intent}"
                   f" {time.monotonic() - begin:.1f} s{': ' + fault if fault else ''}")
             faults += fault is not None
