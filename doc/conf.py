@@ -5,6 +5,7 @@ beside them."""
 import os
 import re
 
+from docutils import nodes
 from pygments import lexer, token
 
 project = "Abut"
@@ -64,6 +65,14 @@ def links_to_sources(app, docname, source):
                        r"`\1`", source[0])
 
 
+def complete_lists(app, doctree, docname):
+    """docutils 0.19 does not open the list of a citation that is the first child."""
+    for citation in list(doctree.findall(nodes.citation)):
+        if citation.parent.index(citation) == 0:
+            citation.parent.insert(0, nodes.comment())
+
+
 def setup(app):
     app.add_lexer("prm", Parameters)
+    app.connect("doctree-resolved", complete_lists)
     app.connect("source-read", links_to_sources)
