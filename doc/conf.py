@@ -17,7 +17,8 @@ html_title = f"Abut {version}".strip()
 extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx_copybutton",
               "sphinx_inline_tabs", "sphinxcontrib.bibtex"]
 source_suffix = {".md": "markdown"}
-root_doc = "index"
+# Trees of contents are no reading matter in the repository; index.md is.
+root_doc = "contents"
 # README.md lists the documents for readers of the repository.
 exclude_patterns = ["README.md", "examples"]
 nitpicky = True
