@@ -92,13 +92,29 @@ namespace abut::shim
         result_.findings.push_back(finding);
       }
 
+      /** Note a measure with its limits; NaN: none. */
+      void measure(const std::string &name, const double value,
+                   const double warning, const double error,
+                   const abut_failure failure)
+      {
+        result_.measures.push_back({name, value, warning, error, failure});
+      }
+
     private:
       ContactExamination &result_;
     };
 
+    constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
+
     void judge_strain(const ContactExamination &seen, const bool allow,
                       Findings &findings)
     {
+      findings.measure("largest_strain", seen.strain, visible_strain,
+                       allow ? no_limit : useless_strain,
+                       ABUT_FAILURE_LARGE_STRAIN);
+      findings.measure("mean_strain", seen.mean_strain, no_limit,
+                       allow ? no_limit : useless_mean_strain,
+                       ABUT_FAILURE_LARGE_STRAIN);
       if (seen.strain <= visible_strain)
         return;
       const bool is_error = !allow
@@ -121,6 +137,8 @@ namespace abut::shim
 
     void judge_balance(const double imbalance, Findings &findings)
     {
+      findings.measure("imbalance", imbalance, visible_imbalance, useless,
+                       ABUT_FAILURE_UNBALANCED);
       if (imbalance > visible_imbalance)
         findings.add(ABUT_FAILURE_UNBALANCED, imbalance > useless,
                      "Forces are out of balance by " + percent(imbalance)
@@ -163,7 +181,8 @@ namespace abut::shim
     void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
                        const dealii::Point<dim> &worst, const bool is_obstacle,
                        const bool touches_itself, const bool is_mortar,
-                       const Scale &scale, Findings &findings)
+                       const Scale &scale, const std::string &key,
+                       Findings &findings)
     {
       const double facet =
           check.size_ratio > 0.
@@ -171,6 +190,13 @@ namespace abut::shim
               : check.facet_size;
       // Surfaces that slide by their own length do not meet any more.
       const double length = std::pow(pair.covered_area, 1. / (dim - 1));
+      if (is_obstacle)
+        findings.measure(key + "_gap_error", pair.gap_error,
+                         scale.limit(visible_gap_error), scale.limit(useless),
+                         ABUT_FAILURE_SLIDING);
+      else
+        findings.measure(key + "_slip", pair.slip, facet, length,
+                         ABUT_FAILURE_SLIDING);
       if (!is_obstacle && pair.slip > facet)
         findings.add(
             ABUT_FAILURE_SLIDING, pair.slip > length,
@@ -215,8 +241,10 @@ namespace abut::shim
 
     template <int dim>
     void judge_rotation(const PairResult<dim> &pair, const bool allow,
-                        Findings &findings)
+                        const std::string &key, Findings &findings)
     {
+      findings.measure(key + "_turn", pair.rotation, visible_rotation,
+                       allow ? no_limit : useless, ABUT_FAILURE_SLIDING);
       if (pair.rotation <= visible_rotation && !has_other_force(pair))
         return;
       const double degrees = 180. / dealii::numbers::PI;
@@ -239,8 +267,14 @@ namespace abut::shim
 
     template <int dim>
     void judge_depths(const PairResult<dim> &pair, const double soft,
-                      const Scale &scale, Findings &findings)
+                      const Scale &scale, const std::string &key,
+                      Findings &findings)
     {
+      findings.measure(key + "_penetration", pair.penetration, no_limit,
+                       pair.penetration - soft + scale.limit(useless),
+                       ABUT_FAILURE_PENALTY);
+      findings.measure(key + "_held_inside", pair.held_inside, no_limit,
+                       scale.limit(useless), ABUT_FAILURE_HELD_NODES);
       if (scale.is_more(soft, useless))
         findings.add(ABUT_FAILURE_PENALTY, true,
                      pair.name + ": the bodies penetrate each other by "
@@ -311,7 +345,8 @@ namespace abut::shim
     void judge_between(const PairResult<dim> &pair, const std::size_t place,
                        const bool is_obstacle, const double peak,
                        const double size, const double size_ratio,
-                       const Scale &scale, Findings &findings)
+                       const Scale &scale, const std::string &key,
+                       Findings &findings)
     {
       // Rows that are soft have a report of their own.
       const double between = pair.between_rows - std::max(0., pair.penetration);
@@ -319,6 +354,12 @@ namespace abut::shim
       // radius.
       const auto if_flat = [&](const double depth)
       { return pair.between_rows <= missed_part * size ? depth : 0.; };
+      const double limit =
+          std::max(0., pair.penetration) + scale.limit(useless);
+      findings.measure(
+          key + "_between_rows", pair.between_rows,
+          is_obstacle ? limit : no_limit, is_obstacle ? no_limit : limit,
+          is_obstacle ? ABUT_FAILURE_UNSEEN : ABUT_FAILURE_COARSE_SECONDARY);
       if (!is_obstacle)
       {
         if (scale.is_more(between, useless))
@@ -334,6 +375,9 @@ namespace abut::shim
                        if_flat(between), place);
         return;
       }
+      findings.measure(key + "_missed_depth", pair.missed_depth, no_limit,
+                       std::max(missed_part * size, scale.limit(useless)),
+                       ABUT_FAILURE_UNSEEN);
       const bool missed = pair.missed_depth > missed_part * size
                           && scale.is_more(pair.missed_depth, useless);
       // Means over facets may be open where a node of them is inside.
@@ -479,6 +523,8 @@ namespace abut::shim
       const bool missed = scale.is_more(deepest.missed, missed_part);
       const double between = deepest.any - i.results->measures().penetration;
       const double peak = std::min(deepest.peak, between);
+      Findings(result).measure("missed_depth", deepest.missed, no_limit,
+                               scale.limit(missed_part), ABUT_FAILURE_UNSEEN);
       const bool hidden = scale.is_more(peak, useless);
       if (missed || scale.is_more(between, useless))
         Findings(result).add(
@@ -569,6 +615,7 @@ namespace abut::shim
     {
       const bool is_obstacle = i.input.pairs[p].obstacle != nullptr;
       const Scale &scale = scales[p];
+      const std::string key = "pair_" + std::to_string(p + 1);
       const bool follows = kinematics_info(i.input.method.kinematics).points
                                == ABUT_CONFIGURATION_CURRENT
                            && !i.input.pairs[p].tied && !is_obstacle;
@@ -576,15 +623,15 @@ namespace abut::shim
         judge_sliding(pairs[p], checks[p], surface_pairs[p].gap_error_place,
                       is_obstacle,
                       i.input.pairs[p].secondary == i.input.pairs[p].primary,
-                      surface_pairs[p].has_mean_gaps(), scale, findings);
-      judge_rotation(pairs[p], allow_large_strain, findings);
+                      surface_pairs[p].has_mean_gaps(), scale, key, findings);
+      judge_rotation(pairs[p], allow_large_strain, key, findings);
       judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i), scale,
-                   findings);
+                   key, findings);
       const auto &narrowest = surface_pairs[p].narrowest;
       judge_between(pairs[p], p, is_obstacle,
                     Deepest(facet_penetrations, p, i.communicator).peak,
                     std::min(checks[p].facet_size, narrowest.width),
-                    checks[p].size_ratio, scale, findings);
+                    checks[p].size_ratio, scale, key, findings);
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
       judge_separated_rows(pairs[p].name, apart[p], follows, scale, findings);

@@ -40,7 +40,9 @@ namespace abut::app
                                         "--output",
                                         folder.string(),
                                         "--set",
-                                        "Output/Pictures=false"};
+                                        "Output/Pictures=false",
+                                        "--set",
+                                        "Output/Report=false"};
       if (!value.empty())
       {
         words.push_back("--set");

@@ -108,11 +108,12 @@ namespace abut::app
       }
 
     private:
-      /** Settings of every run: no files of fields and pictures. */
+      /** Settings of every run: no files of fields, pictures, pages. */
       static std::vector<Assignment> silent(const LoadedScene &scene)
       {
         std::vector<Assignment> result;
-        for (const char *path : {"Output/Fields", "Output/Pictures"})
+        for (const char *path :
+             {"Output/Fields", "Output/Pictures", "Output/Report"})
           if (scene.declares(path))
             result.push_back({path, "false", "abut chart"});
         return result;

@@ -195,6 +195,7 @@ Print the commands, or explain one.
                                + did_you_mean(words[0], names(commands))
                                + " 'abut --help' lists the commands.");
     result.command = command->second;
+    result.words = words;
     if (words.size() == 2 && (words[1] == "--help" || words[1] == "-h"))
     {
       result.command = Command::help;

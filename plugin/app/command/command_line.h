@@ -25,6 +25,7 @@ namespace abut::app
     Command command = Command::help;
     std::string file;  /**< of the scene or the chart; folder of the atlas */
     std::string topic; /**< of `abut help TOPIC` */
+    std::vector<std::string> words;     /**< all of them */
     std::vector<std::string> overrides; /**< of `--set` */
     std::vector<std::string> offers;    /**< of `--set-if-used` */
     std::string output;                 /**< empty: output/<name of the file> */

@@ -79,8 +79,7 @@ namespace
     catch (const std::bad_alloc &)
     {
       code = fail(end_of_run, ExitCode::bad_input,
-                  "error: there is not enough memory for this mesh. Take a "
-                  "coarser one, or more ranks on more machines.");
+                  std::string("error: ") + abut::app::no_memory);
     }
     catch (const std::exception &error)
     {

@@ -5,6 +5,7 @@
 #include "app/chart/chart.h"
 #include "app/input/collective.h"
 #include "app/input/output_folder.h"
+#include "app/report/run_record.h"
 #include "app/restart/restart.h"
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
@@ -18,6 +19,7 @@
 
 #include <iostream>
 #include <memory>
+#include <new>
 #include <optional>
 #include <sstream>
 
@@ -76,6 +78,7 @@ namespace abut::app
       options.scene_file = line.file;
       options.output_folder = output_folder(line);
       options.pictures = loaded.get("Output", "Pictures") == "true";
+      options.outline = line.command == Command::run;
       return options;
     }
 
@@ -131,17 +134,25 @@ namespace abut::app
       }
     }
 
-    ExitCode run_scene(LoadedScene &loaded, RunOptions options,
-                       const CommandLine &line)
+    /** What a run leaves in @p record when it ends by an error. */
+    void record_error(RunRecord &record, const std::exception &error,
+                      const bool has_results)
+    {
+      if (dynamic_cast<const InputError *>(&error) != nullptr)
+        record.end(ExitCode::bad_input, error.what(), has_results);
+      else if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
+        record.end(ExitCode::bad_input, no_memory, has_results);
+      else
+        record.end(ExitCode::internal_error, error.what(), has_results);
+    }
+
+    ExitCode solve_scene(LoadedScene &loaded, RunOptions options,
+                         const CommandLine &line, Report &report)
     {
       MPI_Comm communicator = options.communicator;
-      prepare_output(communicator, options.output_folder);
-      const RunLock lock(options.output_folder, communicator);
       const std::unique_ptr<Restart> restart =
           make_restart(loaded, options, line.resume);
       options.restart = restart.get();
-      Report report(communicator, line.quiet);
-      loaded.describe(report);
       const Outcome outcome = run_to_end(loaded, options, report);
       if (outcome == Outcome::stopped)
         return say_stopped(options, line.quiet);
@@ -158,6 +169,68 @@ namespace abut::app
                   << std::endl;
       return outcome == Outcome::converged ? ExitCode::success
                                            : ExitCode::unusable_answer;
+    }
+
+    ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
+                       const CommandLine &line)
+    {
+      MPI_Comm communicator = options.communicator;
+      prepare_output(communicator, options.output_folder);
+      const RunLock lock(options.output_folder, communicator);
+      RunRecord record(communicator, options.output_folder, line.words,
+                       line.file);
+      collective(communicator, [&] { record.begin(); });
+      Report report(communicator, line.quiet);
+      loaded.describe(report);
+      try
+      {
+        const ExitCode code = solve_scene(loaded, options, line, report);
+        record.end(code, "", code != ExitCode::stopped);
+        return code;
+      }
+      catch (const InputError &error)
+      {
+        record_error(record, loaded.file.placed(error), report.has_rows());
+        throw;
+      }
+      catch (const std::exception &error)
+      {
+        record_error(record, error, false);
+        throw;
+      }
+    }
+
+    /** A scene that is refused before it runs leaves a record where there is a
+     * folder, or where its report is wanted. */
+    void record_refusal(MPI_Comm communicator, const CommandLine &line,
+                        const std::optional<ParameterFile> &file,
+                        const InputError &error)
+    {
+      const std::filesystem::path folder = output_folder(line);
+      std::error_code ignored;
+      const bool wanted =
+          line.command != Command::check
+          && ((file && file->get("Output/Report", "") == "true")
+              || std::filesystem::is_directory(folder, ignored));
+      if (!dealii::Utilities::MPI::broadcast(communicator, wanted))
+        return;
+      try
+      {
+        prepare_output(communicator, folder);
+        const RunLock lock(folder, communicator);
+        // Those of an earlier run.
+        if (is_root(communicator))
+          for (const char *name : {"parameters.json", "outline.json"})
+            std::filesystem::remove(folder / name, ignored);
+        RunRecord record(communicator, folder, line.words, line.file);
+        record_error(record, error, false);
+      }
+      catch (const InputError &)
+      {
+        // Another run writes there, or there is no such folder: it is the
+        // scene's error that the program reports.
+        return;
+      }
     }
 
     ExitCode check_scene(LoadedScene &loaded, const RunOptions &options,
@@ -195,6 +268,15 @@ namespace abut::app
                        require_search(*loaded);
                      loaded->parse();
                    });
+      }
+      catch (const InputError &error)
+      {
+        const InputError placed = file ? file->placed(error) : error;
+        record_refusal(communicator, line, file, placed);
+        throw placed;
+      }
+      try
+      {
         const RunOptions options = run_options(communicator, line, *loaded);
         return line.command == Command::check
                    ? check_scene(*loaded, options, line)
@@ -202,8 +284,6 @@ namespace abut::app
       }
       catch (const InputError &error)
       {
-        if (!file)
-          throw;
         throw file->placed(error);
       }
     }

@@ -11,6 +11,11 @@
 
 namespace abut::app
 {
+  /** What the program says where a mesh does not fit into memory. */
+  inline constexpr char no_memory[] =
+      "there is not enough memory for this mesh. Take a coarser one, or more "
+      "ranks on more machines.";
+
   /** Do what the words after the program's name ask for, on all ranks of
    * @p communicator. Throws InputError with the place of the mistake in its
    * text. Collective. */

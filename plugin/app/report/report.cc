@@ -182,6 +182,17 @@ namespace abut::app
     model_lines.push_back({what, on, why, cost});
   }
 
+  void Report::examined(const ExaminedMeasure &measure)
+  {
+    for (ExaminedMeasure &present : measures)
+      if (present.name == measure.name)
+      {
+        present = measure;
+        return;
+      }
+    measures.push_back(measure);
+  }
+
   void Report::leave_out(const std::string &line)
   {
     left_out.push_back(line);
@@ -241,6 +252,36 @@ namespace abut::app
     }
   }
 
+  void Report::write_failures(JsonWriter &json) const
+  {
+    json.begin("failures");
+    for (int i = 0; const auto *entry = abut_failure_at(i); ++i)
+      if (std::binary_search(codes.begin(), codes.end(), entry->code))
+      {
+        json.begin(entry->code);
+        json.value("name", std::string(entry->text));
+        json.value("remedy", std::string(entry->remedy));
+        json.end();
+      }
+    json.end();
+  }
+
+  void Report::write_examination(JsonWriter &json) const
+  {
+    json.begin("examination");
+    for (const ExaminedMeasure &measure : measures)
+    {
+      json.begin(measure.name);
+      json.value("value", measure.value);
+      json.value("warning_above", measure.warning);
+      json.value("error_above", measure.error);
+      const auto *entry = abut_failure_get(measure.failure);
+      json.value("code", std::string(entry == nullptr ? "" : entry->code));
+      json.end();
+    }
+    json.end();
+  }
+
   void Report::write_json(std::ostream &out) const
   {
     JsonWriter json(out);
@@ -250,6 +291,8 @@ namespace abut::app
                  value);
     json.value("warnings", warnings);
     json.value("codes", codes);
+    write_failures(json);
+    write_examination(json);
     json.value("not_used", unused);
     json.value("could_be_left_out", left_out);
     json.begin("modelled");

@@ -104,6 +104,9 @@ namespace abut::app
     prm.enter_subsection("Output");
     prm.declare_entry("Pictures", "false", Patterns::Bool(),
                       "Draw pictures (SVG) with gnuplot.");
+    prm.declare_entry("Report", "false", Patterns::Bool(),
+                      "Write a page about the run, report.html, as `abut "
+                      "report` does; also where the scene is refused.");
     prm.leave_subsection();
   }
 

@@ -162,6 +162,14 @@ namespace abut::app
     light_touches.sort(examination, state.load_steps.is_finished(),
                        !model.has_inertia());
     report_motions();
+    for (ExaminedMeasure &measure : examination.measures)
+    {
+      if (model.has_large_strain()
+          && measure.failure == ABUT_FAILURE_LARGE_STRAIN)
+        measure.warning = measure.error =
+            std::numeric_limits<double>::quiet_NaN();
+      report.examined(measure);
+    }
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);
     report.set("missed_depth", examination.missed_depth);

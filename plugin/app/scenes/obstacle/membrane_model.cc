@@ -7,6 +7,7 @@
 #include "app/mesh/boundary_parts.h"
 #include "app/mesh/memory_check.h"
 #include "app/physics/nodal_interpolation.h"
+#include "app/pictures/outline.h"
 #include "app/restart/archive.h"
 #include "app/scenes/automatic_law.h"
 #include "membrane_report.h"
@@ -41,6 +42,12 @@ namespace abut::app
     names = names_of(extras, this->triangulation);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);
+    if (run.options.outline)
+      write_outline(run.options.output_folder, run.communicator,
+                    this->triangulation,
+                    [this](const dealii::types::boundary_id id) {
+                      return SurfaceName{1, id, names.names_of(id)};
+                    });
     const double factor =
         std::pow(2., dim * double(parameters.refinement.level));
     check_memory(dim, factor * this->triangulation.n_global_active_cells(),

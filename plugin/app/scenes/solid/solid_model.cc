@@ -7,6 +7,7 @@
 #include "app/physics/contact_traction.h"
 #include "app/physics/elastic_traction.h"
 #include "app/pictures/contact_output.h"
+#include "app/pictures/outline.h"
 #include "app/restart/archive.h"
 #include "shim/bodies.h"
 #include "solid_report.h"
@@ -92,6 +93,19 @@ namespace abut::app
       run.report.warn(warning);
     for (const std::vector<bool> &marked : bisections)
       bodies.refine(marked, this->triangulation);
+    if (run.options.outline)
+    {
+      pairs->set_length(half_extent(this->triangulation));
+      write_outline(
+          run.options.output_folder, run.communicator, this->triangulation,
+          [this](const boundary_id number)
+          {
+            const unsigned int body = bodies.body_of(number);
+            const boundary_id id = bodies.user_id(number);
+            return SurfaceName{body + 1, id, bodies.names(body).names_of(id)};
+          },
+          pairs->obstacles_at_start());
+    }
   }
 
   template <int dim>

@@ -18,6 +18,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace abut::app
@@ -26,6 +27,8 @@ namespace abut::app
 
   namespace
   {
+    constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
+
     /** Part of the normal force that friction carries where it counts. */
     constexpr double visible_friction = 1e-3;
 
@@ -195,6 +198,8 @@ namespace abut::app
     {
       const std::string key = "pair_" + std::to_string(++number);
       report.set(key + "_transfer_error", error);
+      report.examined({key + "_transfer_error", error, visible_transfer_error,
+                       no_limit, ABUT_FAILURE_TRANSFER});
       if (error > visible_transfer_error)
         report.warn(coded(
             ABUT_FAILURE_TRANSFER,
@@ -501,6 +506,8 @@ namespace abut::app
     const double locked =
         volumetric_locking(elasticity.mapping, elasticity.dof_handler,
                            elasticity.ghosted(u), model.data.materials);
+    report.examined({"volumetric_locking", locked, visible_locking, no_limit,
+                     ABUT_FAILURE_LOCKING});
     if (locked > visible_locking)
       report.warn(coded(
           ABUT_FAILURE_LOCKING,
@@ -522,6 +529,8 @@ namespace abut::app
     const double locked = linear_stiffness_error(
         elasticity.mapping, elasticity.dof_handler, elasticity.ghosted(u),
         model.data.materials, parameters.has_large_strain());
+    report.examined({"linear_stiffness_error", locked, visible_stiffness,
+                     no_limit, ABUT_FAILURE_LOCKING});
     if (locked <= visible_stiffness)
       return locked;
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""`abut report`: one page about a run, without any other file."""
+import base64
+import io
+import os
+import pathlib
+
+from . import report_input, report_results, report_sketch, report_solution
+from .errors import InputError, Words, warn
+from .report_page import details, escape, figure, page, quoted
+from .report_verdict import Verdict
+from .run_folder import RunFolder
+
+# Pictures with more text than this are stored as pixels.
+LARGEST_SVG = 250_000
+
+
+def main(words):
+    parser = Words("report")
+    parser.add_argument("folder")
+    parser.add_argument("--output", type=pathlib.Path,
+                        help="default: report.html in the folder")
+    parser.add_argument("--quiet", action="store_true")
+    arguments = parser.parse_args(words)
+    run = RunFolder(arguments.folder)
+    file = arguments.output or run.path / "report.html"
+    text = report(run)
+    try:
+        next_ = file.with_name(file.name + ".new")
+        next_.write_text(text, encoding="utf-8")
+        os.replace(next_, file)
+    except OSError as error:
+        raise InputError(f"cannot write '{file}': {error.strerror}.") from error
+    if not arguments.quiet:
+        print(file)
+    return 0
+
+
+def report(run):
+    """The page of a run."""
+    verdict = Verdict(run)
+    parts = [("", verdict.banner())]
+    add = lambda heading, content: content and parts.append((heading, content))
+    add("Problem", problem(run))
+    if verdict.has_results:
+        add("Results", report_results.results(run))
+    add("Pictures", pictures(run) if verdict.has_results else "")
+    if verdict.has_results:
+        add("Examination", report_results.examination(run))
+        add("Solution process", report_solution.process(run))
+        add("Cost", report_solution.cost(run))
+    add("Files", report_solution.files(run))
+    if verdict.has_results:
+        text = (run.path / "summary.json").read_text(encoding="utf-8")
+        add("All figures", details("summary.json", quoted(
+            text, "summary.json", "pre")))
+    return page(f"{run.name}: {verdict.word.lower()}", parts)
+
+
+def problem(run):
+    sketch = report_sketch.Sketch(run)
+    content = ""
+    if sketch:
+        svg, notes = sketch.svg()
+        content = figure(svg, "; ".join(notes) + ".",
+                         "Sketch of the problem")
+    return content + report_input.tables(run)
+
+
+def pictures(run):
+    """Those of `abut draw`. A page without them is better than none."""
+    from . import draw
+    parts = []
+    try:
+        for name, drawn in draw.pictures(run, draw.style.PAGE):
+            words = name.replace("-", " ").replace("_", " ")
+            parts.append(figure(element(draw.style, drawn, f"picture{len(parts)}"),
+                                words, words))
+    except InputError as error:
+        warn(f"pictures: {error}")
+        parts.append(f"<p>No more pictures: {escape(error)}</p>")
+    return "\n".join(parts)
+
+
+def element(style, drawn, prefix):
+    """A figure as <svg>, or as <img> where that would be large."""
+    file = io.StringIO()
+    drawn.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
+    text = file.getvalue()
+    if len(text) <= LARGEST_SVG:
+        style.pyplot.close(drawn)
+        return report_sketch.inline(text, prefix)
+    pixels = io.BytesIO()
+    drawn.savefig(pixels, format="png", metadata={"Software": None})
+    style.pyplot.close(drawn)
+    return (f'<img alt="{prefix}" src="data:image/png;base64,'
+            f'{base64.b64encode(pixels.getvalue()).decode()}">')

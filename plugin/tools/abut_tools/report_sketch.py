@@ -1,0 +1,440 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A sketch of the problem: outlines with boundary ids, supports and loads as
+symbols, pairs coloured, obstacles. From outline.json and parameters.json."""
+import io
+import json
+import re
+
+import numpy
+
+from . import style
+
+PAIRS = (style.VERMILION, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE,
+         style.SKY)
+SUPPORT, LOAD, BODY = "#404040", "#a0522d", "#eef1f4"
+
+
+class Surface:
+    """A part of a boundary with one id."""
+
+    def __init__(self, entry, dimension):
+        self.body = entry["body"]
+        self.id = entry["id"]
+        self.names = entry["names"]
+        self.points = numpy.array(entry["points"]).reshape(-1, dimension)
+        self.facets = numpy.array(entry["facets"], dtype=int).reshape(
+            -1, int(entry["points_of_facet"]))
+
+    def is_called(self, word):
+        """Whether a word of a list of boundaries means it."""
+        return word in ("*", str(self.id)) or f"'{word}'".lower() in \
+            self.names.lower()
+
+    def samples(self, n):
+        """About n points on it, with unit normals in the plane (to the right
+        of the facet's direction)."""
+        corners = self.points[self.facets]
+        ends, starts = corners[:, 1], corners[:, 0]
+        lengths = numpy.linalg.norm(ends - starts, axis=1)
+        along = numpy.concatenate([[0], numpy.cumsum(lengths)])
+        result = []
+        for place in (numpy.arange(n) + 0.5) / n * along[-1]:
+            i = min(int(numpy.searchsorted(along, place, "right")) - 1,
+                    len(lengths) - 1)
+            part = (place - along[i]) / lengths[i]
+            tangent = (ends[i] - starts[i]) / lengths[i]
+            result.append((starts[i] + part * (ends[i] - starts[i]),
+                           numpy.array([tangent[1], -tangent[0]])))
+        return result
+
+
+def read_surfaces(run):
+    """Surfaces of the outline, its lines of obstacles by number, and the
+    dimension."""
+    if not run.has("outline.json"):
+        return [], {}, 0
+    data = json.loads((run.path / "outline.json").read_text(encoding="utf-8"))
+    dimension = data["dimension"]
+    return ([Surface(entry, dimension) for entry in data["surfaces"].values()],
+            {int(number): numpy.array(line).reshape(-1, 2, dimension)
+             for number, line in data["obstacles"].items()}, dimension)
+
+
+def entries(text):
+    """Boundary words and values of a list '1, 2: a, b; *: c'."""
+    result = []
+    for part in text.split(";"):
+        if ":" in part:
+            names, values = part.split(":", 1)
+            result.append(([word.strip() for word in names.split(",")],
+                           values.strip()))
+    return result
+
+
+def components(text):
+    """The formulas of a vector; commas in parentheses separate arguments."""
+    parts, depth, begin = [], 0, 0
+    for i, letter in enumerate(text):
+        depth += (letter == "(") - (letter == ")")
+        if letter == "," and depth == 0:
+            parts.append(text[begin:i].strip())
+            begin = i + 1
+    return parts + [text[begin:].strip()]
+
+
+def named(surfaces, text, body):
+    """Surfaces with the values that a list of a body gives them; * means those
+    that are not named."""
+    result, taken = [], set()
+    listed = entries(text)
+    for words, value in sorted(listed, key=lambda entry: "*" in entry[0]):
+        for i, surface in enumerate(surfaces):
+            if surface.body == body and i not in taken and any(
+                    surface.is_called(word) for word in words):
+                taken.add(i)
+                result.append((surface, value))
+    return result
+
+
+def side(run, surfaces, text):
+    """Surfaces of one side of a pair, '1: 3, 4; pin: *'."""
+    result = []
+    for body, words in entries(text):
+        for section in run.sections("Body"):
+            number = section.split()[-1]
+            if body[0] in (number, run.parameter(f"{section}/Name")):
+                result += [surface for surface, _ in named(
+                    surfaces, f"{words}: 0", int(number))]
+    return result
+
+
+def loops(surfaces):
+    """Closed lines of facets in the plane, from all surfaces of a body."""
+    nodes, size = {}, numpy.ptp(numpy.concatenate(
+        [surface.points for surface in surfaces]), axis=0).max()
+
+    def key(point):
+        return tuple(numpy.round(point / (1e-7 * size)).astype(numpy.int64))
+
+    for surface in surfaces:
+        for a, b in surface.points[surface.facets]:
+            nodes.setdefault(key(a), []).append((key(b), b))
+            nodes.setdefault(key(b), []).append((key(a), a))
+    seen, result = set(), []
+    for start in nodes:
+        if start in seen:
+            continue
+        line, here, previous = [], start, None
+        while here is not None and here not in seen:
+            seen.add(here)
+            next_ = next(((there, point) for there, point in nodes[here]
+                          if there != previous and there not in seen), None)
+            line.append(numpy.array(here) * 1e-7 * size)
+            previous, here = here, next_[0] if next_ else None
+        if len(line) > 2:
+            result.append(numpy.array(line))
+    return result
+
+
+class Sketch:
+    """Draws into axes."""
+
+    def __init__(self, run):
+        self.run = run
+        self.surfaces, self.obstacles, self.dimension = read_surfaces(run)
+        self.notes = []  # what symbols and colours mean
+
+    def __bool__(self):
+        return bool(self.surfaces)
+
+    def svg(self):
+        """The sketch as SVG, and what its symbols mean."""
+        width, height = self.shape()
+        figure = style.pyplot.figure(figsize=(width * style.MM,
+                                              height * style.MM))
+        if self.dimension == 2:
+            self.draw_plane(figure.add_subplot())
+        else:
+            self.draw_space(figure.add_subplot(projection="3d"))
+        return svg_of(figure, "sketch"), self.notes
+
+    def box(self):
+        points = numpy.concatenate([each.points for each in self.surfaces])
+        return points.min(axis=0), points.max(axis=0)
+
+    def shape(self):
+        """Width and height of the picture in mm."""
+        if self.dimension == 3:
+            return style.PAGE, 110
+        low, high = self.box()
+        size = (high - low) + 0.3 * (high - low).max()
+        height = style.PAGE * size[1] / size[0]
+        return (style.PAGE, max(45, height)) if height < 130 else (
+            max(60, 130 * size[0] / size[1]), 130)
+
+    def pairs(self):
+        """Number, sides and obstacle of each pair."""
+        for section in self.run.sections("Pair"):
+            yield (int(section.split()[-1]),
+                   side(self.run, self.surfaces,
+                        self.run.parameter(f"{section}/Secondary")),
+                   side(self.run, self.surfaces,
+                        self.run.parameter(f"{section}/Primary")),
+                   self.run.parameter(f"{section}/Obstacle", "0"))
+
+    def supports(self):
+        """Surface and the words of its components."""
+        for section in self.run.sections("Body"):
+            for surface, value in named(
+                    self.surfaces, self.run.parameter(f"{section}/Support"),
+                    int(section.split()[-1])):
+                yield surface, components(value)
+        for surface, value in named(
+                self.surfaces, self.run.parameter("Membrane/Dirichlet"), 1):
+            yield surface, [value]
+
+    def loads(self):
+        for section in self.run.sections("Body"):
+            for name in ("Pressure", "Traction"):
+                for surface, value in named(
+                        self.surfaces, self.run.parameter(f"{section}/{name}"),
+                        int(section.split()[-1])):
+                    yield surface, name, components(value)
+
+    # In the plane.
+
+    def draw_plane(self, axes):
+        low, high = self.box()
+        self.size = (high - low).max()
+        for body in sorted({each.body for each in self.surfaces}):
+            of_body = [each for each in self.surfaces if each.body == body]
+            path = []
+            codes = []
+            for loop in loops(of_body):
+                path += [*loop, loop[0]]
+                codes += [1] + [2] * (len(loop) - 1) + [79]
+            if path:
+                axes.add_patch(style.matplotlib.patches.PathPatch(
+                    style.matplotlib.path.Path(path, codes), facecolor=BODY,
+                    edgecolor="none"))
+                self.body_name(axes, body, of_body)
+            for surface in of_body:
+                lines = surface.points[surface.facets]
+                axes.add_collection(style.matplotlib.collections.LineCollection(
+                    lines, colors="#808890", linewidths=0.8))
+        # What scales must know before symbols are drawn.
+        margin = 0.16 * self.size
+        axes.set_xlim(low[0] - margin, high[0] + margin)
+        axes.set_ylim(low[1] - margin, high[1] + margin)
+        axes.set_aspect("equal")
+        axes.axis("off")
+        self.draw_obstacles(axes)
+        self.draw_pairs(axes)
+        self.draw_supports(axes)
+        self.draw_loads(axes)
+        self.draw_ids(axes)
+
+    def body_name(self, axes, body, surfaces):
+        if len(self.run.sections("Body")) < 2:
+            return
+        points = numpy.concatenate([each.points for each in surfaces])
+        axes.annotate(f"body {body}", points.mean(axis=0), ha="center",
+                      va="center", color="#5b6470", zorder=1)
+
+    def outward(self, surface, place, normal):
+        """The normal that points away from the body's middle."""
+        inside = numpy.concatenate(
+            [each.points for each in self.surfaces
+             if each.body == surface.body]).mean(axis=0)
+        loop_side = self.inside_at(surface, place + 1e-4 * self.size * normal)
+        if loop_side is not None:
+            return -normal if loop_side else normal
+        return normal if normal @ (place - inside) > 0 else -normal
+
+    def inside_at(self, surface, place):
+        """Whether a point is inside of a body, by crossings."""
+        crossings = 0
+        for other in self.surfaces:
+            if other.body != surface.body:
+                continue
+            a, b = (other.points[other.facets[:, i]] for i in (0, 1))
+            across = (a[:, 1] > place[1]) != (b[:, 1] > place[1])
+            a, b = a[across], b[across]
+            x = a[:, 0] + (place[1] - a[:, 1]) * (b[:, 0] - a[:, 0]) \
+                / (b[:, 1] - a[:, 1])
+            crossings += int((x > place[0]).sum())
+        return crossings % 2 == 1
+
+    def draw_obstacles(self, axes):
+        for number, lines in self.obstacles.items():
+            if len(lines) == 0:
+                continue
+            axes.add_collection(style.matplotlib.collections.LineCollection(
+                lines, colors="#303030", linewidths=1.6))
+            low, high = numpy.array(axes.get_xlim()), numpy.array(
+                axes.get_ylim())
+            seen = lines.mean(axis=1)
+            seen = seen[(seen[:, 0] > low[0]) & (seen[:, 0] < low[1])
+                        & (seen[:, 1] > high[0]) & (seen[:, 1] < high[1])]
+            if len(seen):
+                place = seen[numpy.argmax(seen @ [1.0, 0.3])]
+                axes.annotate(f"obstacle {number}", place, fontsize=7,
+                              xytext=(-2, 5), textcoords="offset points",
+                              ha="right")
+        if any(len(lines) for lines in self.obstacles.values()):
+            self.notes.append("black lines: rigid obstacles at time 0")
+
+    def draw_pairs(self, axes):
+        for number, secondary, primary, obstacle in self.pairs():
+            colour = PAIRS[(number - 1) % len(PAIRS)]
+            for surfaces, width, dashes in (
+                    (secondary, 3.2, "-"), (primary, 2.2, (0, (2, 1)))):
+                for surface in surfaces:
+                    axes.add_collection(
+                        style.matplotlib.collections.LineCollection(
+                            surface.points[surface.facets], colors=colour,
+                            linewidths=width, linestyles=dashes, zorder=3))
+            self.notes.append(
+                f'<span style="color:{colour}">&#9632;</span> pair {number}: '
+                "secondary surface (full line)"
+                + (" and primary surface (dashed)" if primary else
+                   f" and obstacle {obstacle}" if obstacle != "0" else ""))
+
+    def draw_supports(self, axes):
+        any_drawn = False
+        for surface, words in self.supports():
+            for direction, word in enumerate(words):
+                if word == "free":
+                    continue
+                any_drawn = True
+                for place, normal in surface.samples(5):
+                    out = self.outward(surface, place, normal)
+                    # A membrane is supported as a whole.
+                    unit = out if len(words) == 1 else numpy.eye(2)[direction]
+                    towards = unit * (1 if unit @ out >= 0 else -1)
+                    self.triangle(axes, place, towards,
+                                  word not in ("0", "0."))
+        if any_drawn:
+            self.notes.append("triangles: displacement prescribed along their "
+                              "axis, filled where it is not 0")
+
+    def triangle(self, axes, place, towards, is_moved):
+        across = numpy.array([-towards[1], towards[0]])
+        size = 0.022 * self.size
+        corners = [place, place + size * (1.6 * towards + across),
+                   place + size * (1.6 * towards - across)]
+        axes.add_patch(style.matplotlib.patches.Polygon(
+            corners, closed=True, edgecolor=SUPPORT, linewidth=0.7, zorder=4,
+            facecolor=SUPPORT if is_moved else "white"))
+
+    def draw_loads(self, axes):
+        any_drawn = False
+        for surface, name, words in self.loads():
+            for place, normal in surface.samples(7):
+                out = self.outward(surface, place, normal)
+                towards = -out
+                if name == "Traction":
+                    signs = [sign_of(word) for word in words[:2]]
+                    if not any(signs):
+                        continue
+                    towards = numpy.array(signs, float)
+                    towards /= numpy.linalg.norm(towards)
+                elif sign_of(words[0]) < 0:
+                    towards = out
+                length = 0.09 * self.size
+                tail, head = ((place - length * towards, place)
+                              if towards @ out < 0 else
+                              (place, place + length * towards))
+                axes.annotate("", head, tail, zorder=4, arrowprops={
+                    "arrowstyle": "-|>", "color": LOAD, "linewidth": 0.8,
+                    "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6})
+                any_drawn = True
+        if any_drawn:
+            self.notes.append("arrows: pressure and traction, not to scale")
+
+    def draw_ids(self, axes):
+        for surface in self.surfaces:
+            place, normal = surface.samples(1)[0]
+            out = self.outward(surface, place, normal)
+            name = re.findall(r"'([^']*)'", surface.names)
+            axes.annotate(name[0] if name else str(surface.id),
+                          place - 0.035 * self.size * out, ha="center",
+                          va="center", fontsize=7, color="#1b1f24", zorder=5)
+        self.notes.append("numbers and names inside: boundary ids")
+
+    # In space.
+
+    def draw_space(self, axes):
+        collection = __import__("mpl_toolkits.mplot3d.art3d", fromlist=["x"])
+        colours, dashed = {}, set()
+        for number, secondary, primary, obstacle in self.pairs():
+            colour = PAIRS[(number - 1) % len(PAIRS)]
+            colours.update({id(each): colour for each in secondary + primary})
+            dashed |= {id(each) for each in primary}
+            self.notes.append(
+                f'<span style="color:{colour}">&#9632;</span> pair {number}: '
+                "secondary surface" + (
+                    " and primary surface (paler)" if primary else
+                    f"; obstacle {obstacle}, not drawn" if obstacle != "0"
+                    else ""))
+        fixed = {id(surface) for surface, words in self.supports()
+                 if any(word != "free" for word in words)}
+        loaded = {id(surface) for surface, _, _ in self.loads()}
+        n_facets = sum(len(each.facets) for each in self.surfaces)
+        for surface in self.surfaces:
+            colour = colours.get(id(surface), "#c3cad2")
+            axes.add_collection3d(collection.Poly3DCollection(
+                surface.points[surface.facets], facecolors=colour,
+                edgecolors="#808890", rasterized=n_facets > 400,
+                linewidths=0.2 if n_facets < 3000 else 0,
+                alpha=0.75 if id(surface) in colours
+                and id(surface) not in dashed else 0.35))
+            marks = (" ▲" if id(surface) in fixed else "") + (
+                " ↓" if id(surface) in loaded else "")
+            name = re.findall(r"'([^']*)'", surface.names)
+            axes.text(*surface.points.mean(axis=0),
+                      (name[0] if name else str(surface.id)) + marks,
+                      fontsize=7, ha="center", zorder=10)
+        low, high = self.box()
+        for name, a, b in zip("xyz", low, high):
+            getattr(axes, f"set_{name}lim")(a, b)
+        axes.set_box_aspect(high - low)
+        axes.set_axis_off()
+        self.notes.append("numbers and names: boundary ids")
+        if fixed:
+            self.notes.append("▲: displacement prescribed")
+        if loaded:
+            self.notes.append("↓: pressure or traction")
+
+
+def sign_of(word):
+    """Of a formula that is a number with factors after it."""
+    found = re.match(r"\s*(-?)\s*([0-9.]*(?:e[-+]?[0-9]+)?)", word)
+    try:
+        if found and found.group(2) and float(found.group(2)) == 0 \
+                and found.end() == len(word.rstrip()):
+            return 0
+    except ValueError:
+        pass
+    return -1 if found and found.group(1) else 1
+
+
+def svg_of(figure, prefix):
+    """A figure as an <svg> element for a page."""
+    file = io.StringIO()
+    figure.savefig(file, format="svg",
+                   metadata={"Date": None, "Creator": None, "Format": None,
+                             "Type": None})
+    style.pyplot.close(figure)
+    return inline(file.getvalue(), prefix)
+
+
+def inline(svg, prefix):
+    """An SVG file as an element of a page, in which ids must be its own."""
+    svg = svg[svg.index("<svg"):].strip()
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+    svg = re.sub(r' xmlns(:xlink)?="[^"]*"', "", svg).replace("xlink:href",
+                                                             "href")
+    for before in ('id="', 'href="#', "url(#"):
+        svg = svg.replace(before, before + prefix + "-")
+    return svg
