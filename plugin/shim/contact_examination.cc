@@ -4,6 +4,7 @@
 #include "contact_problem.h"
 
 #include "deformation.h"
+#include "examination_limits.h"
 #include "obstacle_in_bodies.h"
 #include "obstacle_width.h"
 
@@ -19,40 +20,6 @@ namespace abut::shim
 
   namespace
   {
-    /** Part of a whole by which an answer may contradict itself. */
-    constexpr double useless = 0.1;
-
-    /** Distance of facets from their curve, relative to the largest motion,
-     * that leaves a pressure without accuracy. */
-    constexpr double useless_chord = 1.;
-
-    /** Strains at which the error of small-strain theory is visible, and at
-     * which it is of no use. A body that is a third of its size shorter has
-     * such a mean. */
-    constexpr double visible_strain = 0.05, useless_strain = 0.5,
-                     useless_mean_strain = 1. / 3.;
-
-    /** Forces out of balance that are worth a word. */
-    constexpr double visible_imbalance = 1e-2;
-
-    /** Error of gaps that is worth a word, by what bodies are deformed. */
-    constexpr double visible_gap_error = 0.05;
-
-    /** Turn of directions, radian, and so the part of a force that is beside
-     * the normal, that is worth a word; and part of the resultant that may go
-     * to the side without one, whatever else is there. */
-    constexpr double visible_rotation = 0.05, visible_side_force = 0.02;
-
-    /** Bodies in obstacles where no surface meets them, likewise. */
-    constexpr double visible_inside = 0.01;
-
-    /** Depth of an obstacle in a facet without contact, in sizes of the facet
-     * or of the obstacle, that is no matter of its curvature. */
-    constexpr double missed_part = 0.05;
-
-    /** Depths of this part of a facet are round-off of coordinates. */
-    constexpr double round_off_of_places = 1e-9;
-
     std::string number(const double value)
     {
       std::ostringstream out;
@@ -92,29 +59,13 @@ namespace abut::shim
         result_.findings.push_back(finding);
       }
 
-      /** Note a measure with its limits; NaN: none. */
-      void measure(const std::string &name, const double value,
-                   const double warning, const double error,
-                   const abut_failure failure)
-      {
-        result_.measures.push_back({name, value, warning, error, failure});
-      }
-
     private:
       ContactExamination &result_;
     };
 
-    constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
-
     void judge_strain(const ContactExamination &seen, const bool allow,
                       Findings &findings)
     {
-      findings.measure("largest_strain", seen.strain, visible_strain,
-                       allow ? no_limit : useless_strain,
-                       ABUT_FAILURE_LARGE_STRAIN);
-      findings.measure("mean_strain", seen.mean_strain, no_limit,
-                       allow ? no_limit : useless_mean_strain,
-                       ABUT_FAILURE_LARGE_STRAIN);
       if (seen.strain <= visible_strain)
         return;
       const bool is_error = !allow
@@ -137,8 +88,6 @@ namespace abut::shim
 
     void judge_balance(const double imbalance, Findings &findings)
     {
-      findings.measure("imbalance", imbalance, visible_imbalance, useless,
-                       ABUT_FAILURE_UNBALANCED);
       if (imbalance > visible_imbalance)
         findings.add(ABUT_FAILURE_UNBALANCED, imbalance > useless,
                      "Forces are out of balance by " + percent(imbalance)
@@ -147,42 +96,22 @@ namespace abut::shim
                            "at its sign.");
     }
 
-    /** Scales of depths on a pair: deformation of the bodies. */
-    struct Scale
+    /** A depth with what it is compared with. */
+    std::string compared(const DepthScale &scale, const double depth)
     {
-      double way = 0.;   ///< deformation of the bodies
-      double far = 0.;   ///< largest displacement
-      double least = 0.; ///< that is no round-off of places
-
-      /** Far from its place, a body's gaps have the round-off of its way. */
-      double limit(const double part) const
-      {
-        constexpr double round_off = 1e-9;
-        return std::max({part * way, round_off * far, least});
-      }
-
-      bool is_more(const double depth, const double part) const
-      {
-        return depth > limit(part);
-      }
-
-      std::string compared(const double depth) const
-      {
-        if (way == 0.)
-          return number(depth) + " although no body is deformed";
-        return number(depth) + ", where "
-               + (way < far ? "bodies are deformed by no more than "
-                            : "nothing moves by more than ")
-               + number(way);
-      }
-    };
+      if (scale.way == 0.)
+        return number(depth) + " although no body is deformed";
+      return number(depth) + ", where "
+             + (scale.way < scale.far ? "bodies are deformed by no more than "
+                                      : "nothing moves by more than ")
+             + number(scale.way);
+    }
 
     template <int dim>
     void judge_sliding(const PairResult<dim> &pair, const PairCheck &check,
                        const dealii::Point<dim> &worst, const bool is_obstacle,
                        const bool touches_itself, const bool is_mortar,
-                       const Scale &scale, const std::string &key,
-                       Findings &findings)
+                       const DepthScale &scale, Findings &findings)
     {
       const double facet =
           check.size_ratio > 0.
@@ -190,13 +119,6 @@ namespace abut::shim
               : check.facet_size;
       // Surfaces that slide by their own length do not meet any more.
       const double length = std::pow(pair.covered_area, 1. / (dim - 1));
-      if (is_obstacle)
-        findings.measure(key + "_gap_error", pair.gap_error,
-                         scale.limit(visible_gap_error), scale.limit(useless),
-                         ABUT_FAILURE_SLIDING);
-      else
-        findings.measure(key + "_slip", pair.slip, facet, length,
-                         ABUT_FAILURE_SLIDING);
       if (!is_obstacle && pair.slip > facet)
         findings.add(
             ABUT_FAILURE_SLIDING, pair.slip > length,
@@ -214,7 +136,7 @@ namespace abut::shim
             pair.name + ": nodes in contact slide by up to " + number(pair.slip)
                 + ", and their distance from the obstacle, which is "
                   "curved or has a corner, is off by "
-                + scale.compared(pair.gap_error) + ", at "
+                + compared(scale, pair.gap_error) + ", at "
                 + numbers(dealii::Tensor<1, dim>(worst))
                 + ": gaps are those of the undeformed places, and in a concave "
                   "corner a node has the condition of one side alone. Give "
@@ -241,10 +163,8 @@ namespace abut::shim
 
     template <int dim>
     void judge_rotation(const PairResult<dim> &pair, const bool allow,
-                        const std::string &key, Findings &findings)
+                        Findings &findings)
     {
-      findings.measure(key + "_turn", pair.rotation, visible_rotation,
-                       allow ? no_limit : useless, ABUT_FAILURE_SLIDING);
       if (pair.rotation <= visible_rotation && !has_other_force(pair))
         return;
       const double degrees = 180. / dealii::numbers::PI;
@@ -267,18 +187,12 @@ namespace abut::shim
 
     template <int dim>
     void judge_depths(const PairResult<dim> &pair, const double soft,
-                      const Scale &scale, const std::string &key,
-                      Findings &findings)
+                      const DepthScale &scale, Findings &findings)
     {
-      findings.measure(key + "_penetration", pair.penetration, no_limit,
-                       pair.penetration - soft + scale.limit(useless),
-                       ABUT_FAILURE_PENALTY);
-      findings.measure(key + "_held_inside", pair.held_inside, no_limit,
-                       scale.limit(useless), ABUT_FAILURE_HELD_NODES);
       if (scale.is_more(soft, useless))
         findings.add(ABUT_FAILURE_PENALTY, true,
                      pair.name + ": the bodies penetrate each other by "
-                         + scale.compared(soft)
+                         + compared(scale, soft)
                          + ": the contact is far too soft. Use a larger "
                            "Method/Penalty, or the method augmented "
                            "lagrangian or lagrange.");
@@ -287,7 +201,7 @@ namespace abut::shim
                      pair.name
                          + ": supports hold nodes of the secondary surface "
                            "inside the other side by up to "
-                         + scale.compared(pair.held_inside)
+                         + compared(scale, pair.held_inside)
                          + ": contact cannot move them. Leave these nodes "
                            "free along the normal, or move what supports "
                            "them.");
@@ -306,7 +220,7 @@ namespace abut::shim
     /** Facets that rotate by a large angle: polygons that are in each other. */
     template <int dim>
     void judge_corners(const PairResult<dim> &pair, const PairCheck &check,
-                       const double depth, const Scale &scale,
+                       const double depth, const DepthScale &scale,
                        Findings &findings)
     {
       const bool turns =
@@ -320,7 +234,7 @@ namespace abut::shim
                          + ": corners of the secondary surface are inside the "
                            "other side, which their constraints see in the "
                            "mean alone, by up to "
-                         + scale.compared(depth)
+                         + compared(scale, depth)
                          + ": refine the surfaces; if they are meant to fit, "
                            "do not take their gap from the mesh (Mesh gap).");
     }
@@ -328,14 +242,14 @@ namespace abut::shim
     /** Straight facets whose distance from their curve is as large as all that
      * is pressed in: the pressure has no accuracy left. */
     void judge_chords(const std::string &pair, const double error,
-                      const Scale &scale, Findings &findings)
+                      const DepthScale &scale, Findings &findings)
     {
       if (error > 0.)
         findings.add(ABUT_FAILURE_COARSE_CURVE, true,
                      pair
                          + ": straight facets in contact are away from their "
                            "curve, at nodes of the other side, by up to "
-                         + scale.compared(error)
+                         + compared(scale, error)
                          + ": gaps are those of polygons. Refine the surfaces, "
                            "or, if they are meant to fit, do not take their "
                            "gap from the mesh (Mesh gap).");
@@ -345,8 +259,7 @@ namespace abut::shim
     void judge_between(const PairResult<dim> &pair, const std::size_t place,
                        const bool is_obstacle, const double peak,
                        const double size, const double size_ratio,
-                       const Scale &scale, const std::string &key,
-                       Findings &findings)
+                       const DepthScale &scale, Findings &findings)
     {
       // Rows that are soft have a report of their own.
       const double between = pair.between_rows - std::max(0., pair.penetration);
@@ -354,12 +267,6 @@ namespace abut::shim
       // radius.
       const auto if_flat = [&](const double depth)
       { return pair.between_rows <= missed_part * size ? depth : 0.; };
-      const double limit =
-          std::max(0., pair.penetration) + scale.limit(useless);
-      findings.measure(
-          key + "_between_rows", pair.between_rows,
-          is_obstacle ? limit : no_limit, is_obstacle ? no_limit : limit,
-          is_obstacle ? ABUT_FAILURE_UNSEEN : ABUT_FAILURE_COARSE_SECONDARY);
       if (!is_obstacle)
       {
         if (scale.is_more(between, useless))
@@ -367,7 +274,7 @@ namespace abut::shim
                        pair.name
                            + ": nodes of the primary surface are inside the "
                              "secondary, between its constraints, by up to "
-                           + scale.compared(pair.between_rows)
+                           + compared(scale, pair.between_rows)
                            + (size_ratio > 1.
                                   ? ": exchange the two sides, or refine the "
                                     "secondary."
@@ -375,9 +282,6 @@ namespace abut::shim
                        if_flat(between), place);
         return;
       }
-      findings.measure(key + "_missed_depth", pair.missed_depth, no_limit,
-                       std::max(missed_part * size, scale.limit(useless)),
-                       ABUT_FAILURE_UNSEEN);
       const bool missed = pair.missed_depth > missed_part * size
                           && scale.is_more(pair.missed_depth, useless);
       // Means over facets may be open where a node of them is inside.
@@ -389,7 +293,7 @@ namespace abut::shim
                      pair.name
                          + ": the obstacle is in the body between nodes, "
                            "by up to "
-                         + scale.compared(pair.between_rows)
+                         + compared(scale, pair.between_rows)
                          + (!hidden ? std::string()
                             : presses
                                 ? ", of which no node knows " + number(unknown)
@@ -405,13 +309,13 @@ namespace abut::shim
 
     void judge_separated_rows(const std::string &pair,
                               const SeparatedRows &apart, const bool follows,
-                              const Scale &scale, Findings &findings)
+                              const DepthScale &scale, Findings &findings)
     {
       if (apart.force > 0.)
         findings.add(
             ABUT_FAILURE_SLIDING, false,
             pair + ": constraints press where the surfaces are apart, by up to "
-                + scale.compared(apart.gap) + ", with "
+                + compared(scale, apart.gap) + ", with "
                 + percent(apart.force / apart.all) + " of the force. "
                 + (follows ? "Dual functions see convex surfaces too near: "
                              "refine the surfaces, or use "
@@ -433,10 +337,11 @@ namespace abut::shim
      * depth there is no more than that at the surface if that stops the
      * obstacle. */
     template <int dim>
-    void
-    judge_inside(const std::string &pair, const ObstacleInBodies<dim> &found,
-                 const ObstacleWidth &passed, const double facet,
-                 const double strain, const Scale &scale, Findings &findings)
+    void judge_inside(const std::string &pair,
+                      const ObstacleInBodies<dim> &found,
+                      const ObstacleWidth &passed, const double facet,
+                      const double strain, const DepthScale &scale,
+                      Findings &findings)
     {
       // Cells that are compressed by all of their length are inside out: what
       // is behind a surface that touches is no place of the body.
@@ -446,7 +351,7 @@ namespace abut::shim
         return;
       const bool is_error =
           !found.is_met(facet) || scale.is_more(found.elsewhere, useless);
-      const std::string depth = scale.compared(found.elsewhere);
+      const std::string depth = compared(scale, found.elsewhere);
       if (is_error && passed.is_below_facets())
         findings.add(ABUT_FAILURE_UNSEEN, true,
                      pair + ": " + found.between_nodes(depth) + passed.text());
@@ -459,14 +364,14 @@ namespace abut::shim
      * may have come through them in one step, so that they face its far side.
      */
     void judge_unconstrained(const std::string &pair, const double depth,
-                             const double facet, const Scale &scale,
+                             const double facet, const DepthScale &scale,
                              Findings &findings)
     {
       constexpr double round_off = 1e-6;
       if (depth > round_off * facet && scale.is_more(depth, useless))
         findings.add(ABUT_FAILURE_UNSEEN, true,
                      pair + ": the surface is in the obstacle by "
-                         + scale.compared(depth)
+                         + compared(scale, depth)
                          + ", and has no constraint: refine the surface "
                            "there, or use smaller load steps.");
     }
@@ -518,19 +423,18 @@ namespace abut::shim
       double cell = 0.;
       for (const auto &some : i.host.dof_handler().active_cell_iterators())
         cell = std::max(cell, some->diameter());
-      const Scale scale{result.deformation, result.deformation,
-                        round_off_of_places * MPI::max(cell, i.communicator)};
+      const DepthScale scale{result.deformation, result.deformation,
+                             round_off_of_places
+                                 * MPI::max(cell, i.communicator)};
       const bool missed = scale.is_more(deepest.missed, missed_part);
       const double between = deepest.any - i.results->measures().penetration;
       const double peak = std::min(deepest.peak, between);
-      Findings(result).measure("missed_depth", deepest.missed, no_limit,
-                               scale.limit(missed_part), ABUT_FAILURE_UNSEEN);
       const bool hidden = scale.is_more(peak, useless);
       if (missed || scale.is_more(between, useless))
         Findings(result).add(
             ABUT_FAILURE_UNSEEN, missed || hidden,
             "The obstacle is above the membrane between nodes, by up to "
-                + scale.compared(deepest.any)
+                + compared(scale, deepest.any)
                 + (hidden ? ", of which no node knows " + number(peak)
                           : std::string())
                 + (missed ? ", and cells that it is in by up to "
@@ -595,7 +499,7 @@ namespace abut::shim
     const std::vector<PairResult<dim>> pairs = i.results->pairs();
     const std::vector<SurfacePair<dim>> &surface_pairs =
         i.surfaces->set().pairs();
-    std::vector<Scale> scales;
+    std::vector<DepthScale> scales;
     std::vector<double> visible;
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
@@ -614,8 +518,7 @@ namespace abut::shim
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const bool is_obstacle = i.input.pairs[p].obstacle != nullptr;
-      const Scale &scale = scales[p];
-      const std::string key = "pair_" + std::to_string(p + 1);
+      const DepthScale &scale = scales[p];
       const bool follows = kinematics_info(i.input.method.kinematics).points
                                == ABUT_CONFIGURATION_CURRENT
                            && !i.input.pairs[p].tied && !is_obstacle;
@@ -623,22 +526,22 @@ namespace abut::shim
         judge_sliding(pairs[p], checks[p], surface_pairs[p].gap_error_place,
                       is_obstacle,
                       i.input.pairs[p].secondary == i.input.pairs[p].primary,
-                      surface_pairs[p].has_mean_gaps(), scale, key, findings);
-      judge_rotation(pairs[p], allow_large_strain, key, findings);
+                      surface_pairs[p].has_mean_gaps(), scale, findings);
+      judge_rotation(pairs[p], allow_large_strain, findings);
       judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i), scale,
-                   key, findings);
+                   findings);
       const auto &narrowest = surface_pairs[p].narrowest;
       judge_between(pairs[p], p, is_obstacle,
                     Deepest(facet_penetrations, p, i.communicator).peak,
                     std::min(checks[p].facet_size, narrowest.width),
-                    checks[p].size_ratio, scale, key, findings);
+                    checks[p].size_ratio, scale, findings);
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
       judge_separated_rows(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrowest, findings);
       // Bodies with pressure may be deformed by bending alone: compared
       // with all motion.
-      const Scale motion{scale.far, scale.far, scale.least};
+      const DepthScale motion{scale.far, scale.far, scale.least};
       judge_chords(pairs[p].name,
                    chord_error(i.surfaces->points(), p, i.row_states().data(),
                                motion.limit(useless_chord)),

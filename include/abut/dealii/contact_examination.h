@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,19 +61,6 @@ namespace abut
     std::string text;
   };
 
-  /** A measure with the limits that it was compared with. */
-  struct ExaminedMeasure
-  {
-    /** "largest_strain"; of pair N (from 1) "pair_N_penetration". */
-    std::string name;
-    double value = 0.;
-    /** Values above are a warning, and an error; NaN: there is no such limit.
-     */
-    double warning = std::numeric_limits<double>::quiet_NaN();
-    double error = std::numeric_limits<double>::quiet_NaN();
-    abut_failure failure = ABUT_FAILURE_NONE; /**< reported then */
-  };
-
   /** Measures of ContactChecks::examine(). The same on all ranks. */
   struct ContactExamination
   {
@@ -93,8 +79,6 @@ namespace abut
      * contact, length. */
     double missed_depth = 0.;
     std::vector<ContactFinding> findings; /**< errors and warnings */
-    /** Those among the measures that have simple limits, found or not. */
-    std::vector<ExaminedMeasure> measures;
     /** Bodies that contact alone supports: how far they have moved. */
     std::vector<BodyMotion> motions;
     /** By pair: whether it has forces, or its sides are in each other. */

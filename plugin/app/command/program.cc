@@ -78,7 +78,6 @@ namespace abut::app
       options.scene_file = line.file;
       options.output_folder = output_folder(line);
       options.pictures = loaded.get("Output", "Pictures") == "true";
-      options.outline = line.command == Command::run;
       return options;
     }
 

@@ -20,8 +20,6 @@ namespace abut::app
     std::filesystem::path output_folder;
     /** `set Pictures` of section `Output`. */
     bool pictures = false;
-    /** Write the outline of the bodies, see outline.h. */
-    bool outline = false;
     /** Checkpoints of the run; null for kinds of scenes that write none, and
      * for check(). */
     Restart *restart = nullptr;

@@ -82,6 +82,48 @@ namespace abut::app
       return std::visit(Visitor(), value);
     }
 
+    /** Keys of examined() begin with it. */
+    const std::string examination = "examination/";
+
+    bool is_examined(const std::string &key)
+    {
+      return key.compare(0, examination.size(), examination) == 0;
+    }
+
+    /** Measures with their limits. */
+    void write_examination(
+        JsonWriter &json,
+        const std::vector<std::pair<std::string, Report::Value>> &values)
+    {
+      json.begin("examination");
+      for (const auto &[key, value] : values)
+        if (is_examined(key))
+        {
+          const auto &numbers = std::get<std::vector<double>>(value);
+          json.begin(key.substr(examination.size()));
+          json.value("value", numbers.at(0));
+          json.value("warning_above", numbers.at(1));
+          json.value("error_above", numbers.at(2));
+          json.end();
+        }
+      json.end();
+    }
+
+    /** Name and remedy of each known failure that was warned of. */
+    void write_failures(JsonWriter &json, const std::vector<std::string> &codes)
+    {
+      json.begin("failures");
+      for (std::int32_t i = 0; const auto *entry = abut_failure_at(i); ++i)
+        if (std::binary_search(codes.begin(), codes.end(), entry->code))
+        {
+          json.begin(entry->code);
+          json.value("name", std::string(entry->name));
+          json.value("remedy", std::string(entry->remedy));
+          json.end();
+        }
+      json.end();
+    }
+
     std::string padded(const std::string &text, const std::size_t width)
     {
       return text + std::string(width - std::min(width, text.size()), ' ');
@@ -182,17 +224,6 @@ namespace abut::app
     model_lines.push_back({what, on, why, cost});
   }
 
-  void Report::examined(const ExaminedMeasure &measure)
-  {
-    for (ExaminedMeasure &present : measures)
-      if (present.name == measure.name)
-      {
-        present = measure;
-        return;
-      }
-    measures.push_back(measure);
-  }
-
   void Report::leave_out(const std::string &line)
   {
     left_out.push_back(line);
@@ -252,47 +283,19 @@ namespace abut::app
     }
   }
 
-  void Report::write_failures(JsonWriter &json) const
-  {
-    json.begin("failures");
-    for (int i = 0; const auto *entry = abut_failure_at(i); ++i)
-      if (std::binary_search(codes.begin(), codes.end(), entry->code))
-      {
-        json.begin(entry->code);
-        json.value("name", std::string(entry->text));
-        json.value("remedy", std::string(entry->remedy));
-        json.end();
-      }
-    json.end();
-  }
-
-  void Report::write_examination(JsonWriter &json) const
-  {
-    json.begin("examination");
-    for (const ExaminedMeasure &measure : measures)
-    {
-      json.begin(measure.name);
-      json.value("value", measure.value);
-      json.value("warning_above", measure.warning);
-      json.value("error_above", measure.error);
-      const auto *entry = abut_failure_get(measure.failure);
-      json.value("code", std::string(entry == nullptr ? "" : entry->code));
-      json.end();
-    }
-    json.end();
-  }
-
   void Report::write_json(std::ostream &out) const
   {
     JsonWriter json(out);
     json.begin();
     for (const auto &[name, value] : values)
-      std::visit([&json, &name = name](const auto &v) { json.value(name, v); },
-                 value);
+      if (!is_examined(name))
+        std::visit([&json, &name = name](const auto &v)
+                   { json.value(name, v); },
+                   value);
+    write_examination(json, values);
     json.value("warnings", warnings);
     json.value("codes", codes);
-    write_failures(json);
-    write_examination(json);
+    write_failures(json, codes);
     json.value("not_used", unused);
     json.value("could_be_left_out", left_out);
     json.begin("modelled");
@@ -430,10 +433,10 @@ namespace abut::app
     out << "\n";
     std::size_t width = 0;
     for (const auto &[name, value] : values)
-      if (!text_of(value).empty())
+      if (!text_of(value).empty() && !is_examined(name))
         width = std::max(width, name.size());
     for (const auto &[name, value] : values)
-      if (!text_of(value).empty())
+      if (!text_of(value).empty() && !is_examined(name))
         out << "  " << padded(name, width) << "  " << text_of(value) << "\n";
 
     print_model(out);

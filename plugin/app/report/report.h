@@ -10,7 +10,6 @@
 #include "section_times.h"
 
 #include <abut/dealii/coded.h>
-#include <abut/dealii/contact_examination.h>
 
 #include <mpi.h>
 
@@ -27,8 +26,6 @@
 
 namespace abut::app
 {
-  class JsonWriter;
-
   /** Collects the results of one run. All ranks hold the same values and call
    * the same functions; only rank 0 prints and writes.
    *
@@ -102,10 +99,6 @@ namespace abut::app
      * reason. Collected under the key `not_used`. */
     void not_used(const std::string &line);
 
-    /** A measure of the examination of the answer, with its limits. Collected
-     * under the key `examination`; the last one of a name counts. */
-    void examined(const ExaminedMeasure &measure);
-
     /** Something that the answer does not need, with the evidence; printed by
      * explain(). Collected under the key `could_be_left_out`. */
     void leave_out(const std::string &line);
@@ -169,9 +162,6 @@ namespace abut::app
     double used_processor_seconds() const;
     /** Let the clocks show these times now. */
     void count_from(double seconds, double processor);
-    /** Name and remedy of each known failure that was warned of. */
-    void write_failures(JsonWriter &json) const;
-    void write_examination(JsonWriter &json) const;
     void print_model(std::ostream &out) const;
     void print_cost(std::ostream &out) const;
 
@@ -192,7 +182,6 @@ namespace abut::app
     std::vector<ModelLine> model_lines;
     std::vector<std::string> left_out;
     std::vector<std::string> unused;
-    std::vector<ExaminedMeasure> measures;
   };
 } // namespace abut::app
 

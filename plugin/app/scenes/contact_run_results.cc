@@ -3,7 +3,9 @@
 #include "contact_run.h"
 
 #include "diagnosis.h"
+#include "examined.h"
 #include "name_parameter.h"
+#include "shim/examination_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,13 +164,14 @@ namespace abut::app
     light_touches.sort(examination, state.load_steps.is_finished(),
                        !model.has_inertia());
     report_motions();
-    for (ExaminedMeasure &measure : examination.measures)
+    if (!model.has_large_strain())
     {
-      if (model.has_large_strain()
-          && measure.failure == ABUT_FAILURE_LARGE_STRAIN)
-        measure.warning = measure.error =
-            std::numeric_limits<double>::quiet_NaN();
-      report.examined(measure);
+      examined(report, "largest_strain", examination.strain,
+               shim::visible_strain,
+               model.allows_large_strain() ? no_limit : shim::useless_strain);
+      examined(report, "mean_strain", examination.mean_strain, no_limit,
+               model.allows_large_strain() ? no_limit
+                                           : shim::useless_mean_strain);
     }
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);

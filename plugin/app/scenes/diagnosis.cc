@@ -2,10 +2,10 @@
 #include "diagnosis.h"
 
 #include "app/input/short_number.h"
+#include "examined.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace abut::app
 {
@@ -15,8 +15,6 @@ namespace abut::app
      * a coarser mesh would save. Bodies that move, and points that begin to
      * slip, change sets in other ways. */
     constexpr int many_steps = 12;
-
-    constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
 
     /** Forces out of balance that make an answer useless. */
     constexpr double useless_imbalance = 1e-2;
@@ -107,12 +105,9 @@ namespace abut::app
                         Message &failure)
   {
     report.set("imbalance", imbalance);
-    const abut_failure blamed =
-        penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER;
     const bool is_exact = by.to_round_off && penalty == 0.;
-    report.examined({"imbalance", imbalance,
-                     is_exact ? no_limit : visible_imbalance, useless_imbalance,
-                     blamed});
+    examined(report, "imbalance", imbalance,
+             is_exact ? no_limit : visible_imbalance, useless_imbalance);
     if (imbalance <= (is_exact ? useless_imbalance : visible_imbalance))
       return true;
     const std::string seen = "Forces are out of balance by "
@@ -139,7 +134,9 @@ namespace abut::app
                               "the other forces.")
                 : "the linear system was not solved to its tolerance. Try "
                       + digits + " or Solver/Linear solver = direct.";
-    const Message text = coded(blamed, seen + why);
+    const Message text =
+        coded(penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
+              seen + why);
     if (!(imbalance <= useless_imbalance))
     {
       failure = text;
@@ -162,8 +159,8 @@ namespace abut::app
         tolerance_of_works * (works.size + length * works.force)
         + round_off_of_works * (works.apart + works.before);
     report.set("work_error", off > least ? part : 0.);
-    report.examined({"work_error", off > least ? part : 0., visible_work,
-                     useless_work, ABUT_FAILURE_UNBALANCED});
+    examined(report, "work_error", off > least ? part : 0., visible_work,
+             useless_work);
     if (part <= visible_work || off <= least)
       return {};
     const bool is_law = std::abs(works.open_gaps) > std::abs(unbalanced);
@@ -227,9 +224,7 @@ namespace abut::app
     if (condition == 0.)
       return;
     report.set("condition", condition);
-    report.examined(
-        {"condition", condition, large_condition, no_limit,
-         penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER});
+    examined(report, "condition", condition, large_condition, no_limit);
     if (condition <= large_condition)
       return;
     const std::string seen = "Conjugate gradients met a condition number of "

@@ -13,6 +13,22 @@ from .run_folder import RunFolder
 
 # Pictures with more text than this are stored as pixels.
 LARGEST_SVG = 250_000
+RESOLUTION = 130  # dots per inch
+
+CAPTIONS = {
+    "bodies": "Deformed bodies.",
+    "tractions": "Contact pressure, and friction if there is any, along the "
+                 "secondary surface.",
+    "displacement": "Displacement of the membrane.",
+    "active-set": "Where the membrane touches the obstacle.",
+    "motion": "The motion over time.",
+    "convergence": "Errors and effort over the number of unknowns.",
+    "search": "Time of the search over the size of buckets.",
+    "penalty": "Displacement and force over the penalty.",
+    "energy": "Energy over the displacement.",
+    "lagrangian": "The Lagrangian.",
+    "path": "The way of the iteration.",
+}
 
 
 def main(words):
@@ -39,32 +55,34 @@ def main(words):
 def report(run):
     """The page of a run."""
     verdict = Verdict(run)
-    parts = [("", verdict.banner())]
-    add = lambda heading, content: content and parts.append((heading, content))
-    add("Problem", problem(run))
-    if verdict.has_results:
-        add("Results", report_results.results(run))
-    add("Pictures", pictures(run) if verdict.has_results else "")
-    if verdict.has_results:
-        add("Examination", report_results.examination(run))
-        add("Solution process", report_solution.process(run))
-        add("Cost", report_solution.cost(run))
-    add("Files", report_solution.files(run))
-    if verdict.has_results:
+    solved = verdict.has_results
+    parts = [("", verdict.banner()), ("Problem", problem(run))]
+    if solved:
+        parts += [("Results", report_results.results(run)),
+                  ("Pictures", pictures(run)),
+                  ("Examination", report_results.examination(run)),
+                  ("Solution process", report_solution.process(run)),
+                  ("Cost", report_solution.cost(run))]
+    parts += [("Parameters", report_input.parameters(run)),
+              ("Files", report_solution.files(run))]
+    if solved:
         text = (run.path / "summary.json").read_text(encoding="utf-8")
-        add("All figures", details("summary.json", quoted(
-            text, "summary.json", "pre")))
-    return page(f"{run.name}: {verdict.word.lower()}", parts)
+        parts.append(("All figures", details("summary.json", quoted(
+            text, "summary.json", "pre"))))
+    return page(f"{run.title[0]}: {verdict.word.lower()}",
+                [part for part in parts if part[1]])
 
 
 def problem(run):
+    """The sketch beside the tables of bodies, obstacles and pairs."""
     sketch = report_sketch.Sketch(run)
-    content = ""
+    drawn = ""
     if sketch:
         svg, notes = sketch.svg()
-        content = figure(svg, "; ".join(notes) + ".",
-                         "Sketch of the problem")
-    return content + report_input.tables(run)
+        drawn = figure(svg, "; ".join(notes) + ".", "Sketch of the problem")
+    content = report_input.tables(run)
+    return (f'<div class="side">{drawn}<div>{content}</div></div>'
+            if drawn or content else "")
 
 
 def pictures(run):
@@ -73,9 +91,10 @@ def pictures(run):
     parts = []
     try:
         for name, drawn in draw.pictures(run, draw.style.PAGE):
-            words = name.replace("-", " ").replace("_", " ")
-            parts.append(figure(element(draw.style, drawn, f"picture{len(parts)}"),
-                                words, words))
+            words = CAPTIONS.get(name, name.replace("-", " ") + ".")
+            parts.append(figure(
+                element(draw.style, drawn, f"picture{len(parts)}"), words,
+                words))
     except InputError as error:
         warn(f"pictures: {error}")
         parts.append(f"<p>No more pictures: {escape(error)}</p>")
@@ -91,7 +110,8 @@ def element(style, drawn, prefix):
         style.pyplot.close(drawn)
         return report_sketch.inline(text, prefix)
     pixels = io.BytesIO()
-    drawn.savefig(pixels, format="png", metadata={"Software": None})
+    drawn.savefig(pixels, format="png", dpi=RESOLUTION,
+                  metadata={"Software": None})
     style.pyplot.close(drawn)
     return (f'<img alt="{prefix}" src="data:image/png;base64,'
             f'{base64.b64encode(pixels.getvalue()).decode()}">')

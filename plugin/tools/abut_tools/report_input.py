@@ -27,7 +27,7 @@ def value_of(run, path):
 
 def tables(run):
     parts = [section_table(run, *entry) for entry in TABLES]
-    return "\n".join(part for part in parts + [changed(run)] if part)
+    return "\n".join(part for part in parts if part)
 
 
 def section_table(run, beginning, heading, names):
@@ -47,7 +47,12 @@ def is_given(run, path):
     return run.parameters.get(path, {}).get("given", False)
 
 
-def changed(run):
+def name(path):
+    """A parameter; lines may break behind its sections."""
+    return f'<code>{escape(path).replace("/", "/<wbr>")}</code>'
+
+
+def parameters(run):
     """Parameters with other values than the defaults, the others folded."""
     given, others = [], []
     not_used = " ".join(run.summary.get("not_used", []))
@@ -59,19 +64,19 @@ def changed(run):
             return quoted(value, f"parameters.json#{where}/{key}", "code") \
                 if value else '<span class="soft">(empty)</span>'
         if parameter["value"] == parameter["default"]:
-            others.append([f"<code>{escape(path)}</code>", text("value")])
+            others.append([name(path), text("value")])
         else:
             note = ' <span class="soft">not used by this run</span>' \
                 if path and path in not_used else ""
-            given.append([f"<code>{escape(path)}</code>",
+            given.append([name(path),
                           text("value") + note, text("default"),
                           quoted(parameter["origin"],
                                  f"parameters.json#{where}/origin")])
     if not given and not others:
         return ""
-    parts = ["<h3>Parameters that differ from their defaults</h3>",
-             table(["parameter", "value", "default", "set in"], given)
-             if given else "<p>None.</p>"]
+    parts = [table(["parameter", "value", "default", "set in"], given,
+                   "Parameters that differ from their defaults")
+             if given else "<p>All have their defaults.</p>"]
     if others:
         parts.append(details("Parameters with their defaults",
                              table(["parameter", "value"], others)))

@@ -36,6 +36,10 @@ PAIR = {
     "transfer_error": ("uniform pressure transferred to wrong nodes", ""),
 }
 
+# Of PAIR, what most readers look for.
+MAIN = ("force", "moment", "pressure", "contact_area", "penetration", "slip",
+        "normal_force", "friction", "friction_ratio", "active", "slipping")
+
 # Of the whole run, in the order of the page.
 RUN = {
     "contact_force": ("contact force", "force"),

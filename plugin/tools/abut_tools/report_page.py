@@ -24,7 +24,7 @@ h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; padding-bottom: .25rem;
 h3 { font-size: 1rem; margin: 1.4rem 0 .4rem; }
 p { margin: .4rem 0 .7rem; max-width: 46rem; }
 code, pre { font: .87em/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
-code { overflow-wrap: anywhere; }
+code { overflow-wrap: break-word; } p code { overflow-wrap: anywhere; }
 pre { background: var(--pale); border: 1px solid var(--line); border-radius: 4px;
   padding: .6rem .8rem; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; }
 .banner { margin: 1.25rem 0 0; padding: 1rem 1.2rem; border: 1px solid var(--line);
@@ -58,6 +58,8 @@ td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space:
 .near::before { border-radius: 0; } .over::before { border-radius: 0; transform: rotate(45deg); }
 figure { margin: .8rem 0 1.2rem; } figure svg, figure img { max-width: 100%; height: auto; }
 figcaption { color: var(--soft); font-size: .9rem; max-width: 46rem; }
+.side { display: flex; flex-wrap: wrap; gap: 0 2.5rem; align-items: flex-start; }
+.side > figure { flex: 0 1 28rem; } .side > div { flex: 1 1 22rem; min-width: 0; }
 .bar { display: inline-block; height: .75em; background: var(--cool); vertical-align: baseline;
   min-width: 1px; }
 .bars { width: 14rem; } details { margin: .6rem 0; } summary { cursor: pointer; color: var(--cool); }

@@ -4,7 +4,7 @@ points; and the examination of the answer."""
 import re
 
 from . import report_labels as labels
-from .report_page import number, pointer, quoted, table, values
+from .report_page import details, number, pointer, quoted, table, values
 
 
 def results(run):
@@ -21,6 +21,10 @@ def results(run):
                       {"point_node": ("nearest node", "length"),
                        "point": ("displacement", "length")}),
              figures(run, labels.RUN, "Whole run")]
+    if run.kind == "solid" and run.parameter("Dimension") != "3" and \
+            run.parameter("Solid/Plane") != "axisymmetric":
+        parts.append('<p class="soft">In the plane, forces and energies are '
+                     "per unit of thickness, and areas are lengths.</p>")
     return "\n".join(part for part in parts if part)
 
 
@@ -84,14 +88,27 @@ def pairs(run):
     names = {name for of_pair in found.values() for name in of_pair}
     order = [name for name in labels.PAIR if name in names]
     order += sorted(names - set(order))
-    rows = [[labels.label(labels.PAIR, name)] + [
-        values(run.summary[of_pair[name]],
-               f"summary.json#{pointer(of_pair[name])}")
-        if name in of_pair else "" for of_pair in found.values()]
-        for name in order]
-    return "<h3>Contact</h3>\n" + table(
-        [""] + [f"pair {pair}" for pair in found], rows,
-        numeric=range(1, len(found) + 1))
+
+    def rows(main):
+        return [[labels.label(labels.PAIR, name)] + [
+            values(run.summary[of_pair[name]],
+                   f"summary.json#{pointer(of_pair[name])}")
+            if name in of_pair else "" for of_pair in found.values()]
+            for name in order if (name in labels.MAIN) == main]
+
+    head = [""] + [pair_name(run, pair) for pair in found]
+    numeric = range(1, len(found) + 1)
+    more = rows(False)
+    return ("<h3>Contact</h3>\n" + table(head, rows(True), numeric=numeric)
+            + (details("More measures of the pairs",
+                       table(head, more, numeric=numeric)) if more else ""))
+
+
+def pair_name(run, pair):
+    sides = run.summary.get(f"pair_{pair}_sides")
+    return f"pair {pair}" + (
+        "<br>" + quoted(sides, f"summary.json#/pair_{pair}_sides")
+        if isinstance(sides, str) else "")
 
 
 def numbered(run, what, heading, names):

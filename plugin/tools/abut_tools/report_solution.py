@@ -110,7 +110,7 @@ def levels(run):
         value = float(value)
         return number(int(value) if value.is_integer() and abs(value) < 1e15
                       else value, f"levels.csv:{name}:{row}", digits=5)
-    caption = (f"The first {FIRST} and the last {LAST} rows of levels.csv, "
+    caption = ("The first and the last rows of levels.csv, "
                f"which has {number(n, 'levels.csv', 'rows')}."
                if n > MOST_ROWS else "levels.csv")
     return "<h3>Meshes and steps</h3>\n" + table(

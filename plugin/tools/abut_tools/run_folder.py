@@ -22,15 +22,21 @@ class RunFolder:
         if not self.path.is_dir():
             raise InputError(f"'{path}' is not a folder.")
         if not any((self.path / name).is_file()
-                   for name in ("parameters.json", "summary.json")):
+                   for name in ("run.json", "parameters.json", "summary.json")):
             raise InputError(f"'{path}' is not the output folder of a run: "
-                             "parameters.json and summary.json are missing.")
+                             "run.json and summary.json are missing.")
+
+    @functools.cached_property
+    def record(self):
+        """run.json: how the run was started and how it ended; empty where the
+        file is missing."""
+        return self._json("run.json") if self.has("run.json") else {}
 
     @functools.cached_property
     def is_finished(self):
-        """Whether the run came to its end; False: it was killed, or it is
-        still running."""
-        return (self.path / "summary.json").is_file()
+        """Whether summary.json is of this run; False: the run was killed or
+        refused, or it is still running."""
+        return self.has("summary.json") and self.record.get("has_results", True)
 
     @functools.cached_property
     def summary(self):
@@ -43,6 +49,25 @@ class RunFolder:
         where the file is missing."""
         name = "parameters.json"
         return self._json(name) if (self.path / name).is_file() else {}
+
+    @property
+    def name(self):
+        """Of the scene."""
+        return self.title[0]
+
+    @property
+    def title(self):
+        """The title of the scene or the name of its file, and where in the
+        folder that is from."""
+        for text, of in (
+                (self.parameter("Title"), "parameters.json#/parameters/Title/value"),
+                (self.summary.get("title"), "summary.json#/title"),
+                (self.input.get("scene"), "parameters.json#/scene"),
+                (self.record.get("scene_file"), "run.json#/scene_file"),
+                (self.summary.get("scene"), "summary.json#/scene")):
+            if text:
+                return text, of
+        return self.path.name, "files"
 
     @property
     def kind(self):

@@ -42,12 +42,13 @@ namespace abut::app
     names = names_of(extras, this->triangulation);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);
-    if (run.options.outline)
-      write_outline(run.options.output_folder, run.communicator,
-                    this->triangulation,
-                    [this](const dealii::types::boundary_id id) {
-                      return SurfaceName{1, id, names.names_of(id)};
-                    });
+    // A check writes nothing, and has no checkpoints.
+    if (run.options.restart != nullptr)
+      write_outline<dim>(run.options.output_folder, run.communicator,
+                         this->triangulation,
+                         [this](const dealii::types::boundary_id id) {
+                           return SurfaceName{1, id, names.names_of(id)};
+                         });
     const double factor =
         std::pow(2., dim * double(parameters.refinement.level));
     check_memory(dim, factor * this->triangulation.n_global_active_cells(),

@@ -93,19 +93,22 @@ namespace abut::app
       run.report.warn(warning);
     for (const std::vector<bool> &marked : bisections)
       bodies.refine(marked, this->triangulation);
-    if (run.options.outline)
-    {
-      pairs->set_length(half_extent(this->triangulation));
-      write_outline(
-          run.options.output_folder, run.communicator, this->triangulation,
-          [this](const boundary_id number)
-          {
-            const unsigned int body = bodies.body_of(number);
-            const boundary_id id = bodies.user_id(number);
-            return SurfaceName{body + 1, id, bodies.names(body).names_of(id)};
-          },
-          pairs->obstacles_at_start());
-    }
+    // A check writes nothing, and has no checkpoints.
+    if (run.options.restart == nullptr)
+      return;
+    pairs->set_length(half_extent(this->triangulation));
+    std::vector<std::shared_ptr<const RigidObstacle<dim>>> obstacles;
+    for (const auto &obstacle : pairs->moved_obstacles())
+      obstacles.push_back(obstacle.shape);
+    write_outline<dim>(
+        run.options.output_folder, run.communicator, this->triangulation,
+        [this](const boundary_id number)
+        {
+          const unsigned int body = bodies.body_of(number);
+          const boundary_id id = bodies.user_id(number);
+          return SurfaceName{body + 1, id, bodies.names(body).names_of(id)};
+        },
+        obstacles);
   }
 
   template <int dim>

@@ -330,15 +330,6 @@ namespace abut::app
     return result;
   }
 
-  template <int dim>
-  std::vector<std::shared_ptr<const RigidObstacle<dim>>>
-  SolidPairs<dim>::obstacles_at_start() const
-  {
-    for (const auto &obstacle : obstacles)
-      obstacle->set_time(0.);
-    return {obstacles.begin(), obstacles.end()};
-  }
-
   template <int dim> std::set<boundary_id> SolidPairs<dim>::secondary() const
   {
     std::set<boundary_id> result;

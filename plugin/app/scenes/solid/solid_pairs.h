@@ -120,10 +120,6 @@ namespace abut::app
     /** All obstacles at the present time. */
     std::vector<MovedObstacle> moved_obstacles() const;
 
-    /** All obstacles, at time 0. */
-    std::vector<std::shared_ptr<const RigidObstacle<dim>>>
-    obstacles_at_start() const;
-
     /** Both sides of the pairs between bodies. */
     std::vector<ContactSides> sides() const;
 

@@ -8,17 +8,18 @@
 #include "app/physics/linear_stiffness.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
+#include "app/scenes/examined.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
 #include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
+#include "shim/examination_limits.h"
 
 #include <abut/dealii/pair_measures.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 namespace abut::app
@@ -27,8 +28,6 @@ namespace abut::app
 
   namespace
   {
-    constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
-
     /** Part of the normal force that friction carries where it counts. */
     constexpr double visible_friction = 1e-3;
 
@@ -198,8 +197,8 @@ namespace abut::app
     {
       const std::string key = "pair_" + std::to_string(++number);
       report.set(key + "_transfer_error", error);
-      report.examined({key + "_transfer_error", error, visible_transfer_error,
-                       no_limit, ABUT_FAILURE_TRANSFER});
+      examined(report, key + "_transfer_error", error, visible_transfer_error,
+               no_limit);
       if (error > visible_transfer_error)
         report.warn(coded(
             ABUT_FAILURE_TRANSFER,
@@ -290,12 +289,40 @@ namespace abut::app
                        ? pair.secondary_friction.norm() / pair.normal_force
                        : 0.);
       }
+      examine_pair(number, pair, facet);
       force_imbalance = std::max(force_imbalance, pair.force_imbalance);
       moment_imbalance =
           std::max(moment_imbalance, is_large ? pair.present_moment_imbalance
                                               : pair.moment_imbalance);
     }
     return {force_imbalance, moment_imbalance};
+  }
+
+  /* The measures of a pair that have simple limits. */
+  template <int dim>
+  void SolidReport<dim>::examine_pair(const unsigned int number,
+                                      const PairResult<dim> &result,
+                                      const double facet) const
+  {
+    const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
+    const std::string key = "pair_" + std::to_string(number) + "_";
+    const double deformation = std::get<double>(report.get("deformation"));
+    const shim::DepthScale scale{deformation, u.linfty_norm(),
+                                 shim::round_off_of_places * facet};
+    const double large = scale.limit(shim::useless);
+    const double closed = std::max(0., result.penetration);
+    if (method.user_law == nullptr)
+      examined(report, key + "penetration", result.penetration, no_limit,
+               contact.results().measures().allowed_penetration + large);
+    examined(report, key + "held_inside", result.held_inside, no_limit, large);
+    examined(report, key + "between_rows", result.between_rows,
+             pair.obstacle ? closed + large : no_limit,
+             pair.obstacle ? no_limit : closed + large);
+    if (pair.obstacle)
+      examined(report, key + "gap_error", result.gap_error,
+               scale.limit(shim::visible_gap_error), large);
+    examined(report, key + "turn", result.rotation, shim::visible_rotation,
+             model.allows_large_strain() ? no_limit : shim::useless);
   }
 
   /* Parts of the normal force, with that on prescribed nodes, which have no
@@ -506,8 +533,7 @@ namespace abut::app
     const double locked =
         volumetric_locking(elasticity.mapping, elasticity.dof_handler,
                            elasticity.ghosted(u), model.data.materials);
-    report.examined({"volumetric_locking", locked, visible_locking, no_limit,
-                     ABUT_FAILURE_LOCKING});
+    examined(report, "volumetric_locking", locked, visible_locking, no_limit);
     if (locked > visible_locking)
       report.warn(coded(
           ABUT_FAILURE_LOCKING,
@@ -529,8 +555,8 @@ namespace abut::app
     const double locked = linear_stiffness_error(
         elasticity.mapping, elasticity.dof_handler, elasticity.ghosted(u),
         model.data.materials, parameters.has_large_strain());
-    report.examined({"linear_stiffness_error", locked, visible_stiffness,
-                     no_limit, ABUT_FAILURE_LOCKING});
+    examined(report, "linear_stiffness_error", locked, visible_stiffness,
+             no_limit);
     if (locked <= visible_stiffness)
       return locked;
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";
