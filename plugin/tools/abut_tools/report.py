@@ -93,15 +93,15 @@ def pictures(run):
         for name, drawn in draw.pictures(run, draw.style.PAGE):
             words = CAPTIONS.get(name, name.replace("-", " ") + ".")
             parts.append(figure(
-                element(draw.style, drawn, f"picture{len(parts)}"), words,
-                words))
+                element(draw.style, drawn, f"picture{len(parts)}", words),
+                words, words))
     except InputError as error:
         warn(f"pictures: {error}")
         parts.append(f"<p>No more pictures: {escape(error)}</p>")
     return "\n".join(parts)
 
 
-def element(style, drawn, prefix):
+def element(style, drawn, prefix, words):
     """A figure as <svg>, or as <img> where that would be large."""
     file = io.StringIO()
     drawn.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
@@ -113,5 +113,5 @@ def element(style, drawn, prefix):
     drawn.savefig(pixels, format="png", dpi=RESOLUTION,
                   metadata={"Software": None})
     style.pyplot.close(drawn)
-    return (f'<img alt="{prefix}" src="data:image/png;base64,'
+    return (f'<img alt="{escape(words)}" src="data:image/png;base64,'
             f'{base64.b64encode(pixels.getvalue()).decode()}">')

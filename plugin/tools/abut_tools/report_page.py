@@ -69,7 +69,7 @@ figcaption { color: var(--soft); font-size: .9rem; max-width: 46rem; }
   th, td { padding-right: .6rem; } }
 @media print {
   @page { size: A4; margin: 15mm 14mm; }
-  body { max-width: none; padding: 0; font-size: 9.5pt; } nav, details:not([open]) { display: none; }
+  body { max-width: none; padding: 0; font-size: 9.5pt; } nav, details:not([open]), .folded { display: none; }
   figure, tr, .message, .banner { break-inside: avoid; } h2, h3 { break-after: avoid; }
   .banner, .message, .bar, .ok::before, .near::before, .over::before {
     print-color-adjust: exact; -webkit-print-color-adjust: exact; }
@@ -167,7 +167,8 @@ def page(title, parts):
     body = []
     for i, (heading, content) in enumerate(parts):
         if heading:
-            body.append(f'<section id="part-{i}"><h2>{escape(heading)}</h2>'
+            folded = content.startswith("<details")
+            body.append(f'<section id="part-{i}"{" class=folded" * folded}><h2>{escape(heading)}</h2>'
                         f"\n{content}\n</section>")
         else:
             body.append(f"{content}\n<nav>{links}</nav>")

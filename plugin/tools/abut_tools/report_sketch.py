@@ -172,6 +172,11 @@ class Sketch:
         return (style.PAGE, max(45, height)) if height < 130 else (
             max(60, 130 * size[0] / size[1]), 130)
 
+    def middle(self, body):
+        """Of the surfaces of a body."""
+        return numpy.concatenate([each.points for each in self.surfaces
+                                  if each.body == body]).mean(axis=0)
+
     def pairs(self):
         """Number, sides and obstacle of each pair."""
         for section in self.run.sections("Pair"):
@@ -217,7 +222,7 @@ class Sketch:
                 axes.add_patch(style.matplotlib.patches.PathPatch(
                     style.matplotlib.path.Path(path, codes), facecolor=BODY,
                     edgecolor="none"))
-                self.body_name(axes, body, of_body)
+                self.body_name(axes, body)
             for surface in of_body:
                 lines = surface.points[surface.facets]
                 axes.add_collection(style.matplotlib.collections.LineCollection(
@@ -234,18 +239,15 @@ class Sketch:
         self.draw_loads(axes)
         self.draw_ids(axes)
 
-    def body_name(self, axes, body, surfaces):
+    def body_name(self, axes, body):
         if len(self.run.sections("Body")) < 2:
             return
-        points = numpy.concatenate([each.points for each in surfaces])
-        axes.annotate(f"body {body}", points.mean(axis=0), ha="center",
+        axes.annotate(f"body {body}", self.middle(body), ha="center",
                       va="center", color="#5b6470", zorder=1)
 
     def outward(self, surface, place, normal):
         """The normal that points away from the body's middle."""
-        inside = numpy.concatenate(
-            [each.points for each in self.surfaces
-             if each.body == surface.body]).mean(axis=0)
+        inside = self.middle(surface.body)
         loop_side = self.inside_at(surface, place + 1e-4 * self.size * normal)
         if loop_side is not None:
             return -normal if loop_side else normal
@@ -392,9 +394,11 @@ class Sketch:
             marks = (" ▲" if id(surface) in fixed else "") + (
                 " ↓" if id(surface) in loaded else "")
             name = re.findall(r"'([^']*)'", surface.names)
-            axes.text(*surface.points.mean(axis=0),
-                      (name[0] if name else str(surface.id)) + marks,
-                      fontsize=7, ha="center", zorder=10)
+            # Surfaces that touch have their names apart.
+            place = (0.85 * surface.points.mean(axis=0)
+                     + 0.15 * self.middle(surface.body))
+            axes.text(*place, (name[0] if name else str(surface.id)) + marks,
+                      fontsize=9, ha="center", zorder=10)
         low, high = self.box()
         for name, a, b in zip("xyz", low, high):
             getattr(axes, f"set_{name}lim")(a, b)
