@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pages about runs: of each kind of scene, solved, without an answer, refused,
-and killed."""
+"""Pages about runs: of each kind of scene, solved, without an answer, with an error
+in the input, and killed."""
 import json
 import re
 import signal
@@ -98,30 +98,30 @@ for scene, settings in p.some([
     run(scene, "none", 3, settings)
     look("none", "NO ANSWER", 'class="message bad"')
 
-# Refused before and after its folder was made, over the results of another
-# run, which are not shown.
+# Errors in the input before and after the folder was made, over the results of
+# another run, which are not shown.
 for scene in p.some(["press-fit.prm", "point-mass.prm", "step-41.prm",
                      "friction-bar.prm", "dynamics-bar-on-a-wall.prm",
                      "search-flat.prm"], 2):
     folder = scene.removesuffix(".prm")
     run(scene, folder, 2, {"Output/Nonsense": 1})
-    look(folder, "REFUSED", "Nonsense", "of an earlier run",
+    look(folder, "INPUT ERROR", "Nonsense", "of an earlier run",
          without=("<h2>Results</h2>", "<h2>All figures</h2>"))
 run("press-fit.prm", "press-fit", 2, {"Pair 1/Secondary": "1: 17"})
-look("press-fit", "REFUSED", "17", "Contact pairs",
+look("press-fit", "INPUT ERROR", "17", "Contact pairs",
      without=("<h2>Results</h2>",), pictures=1)
 
-# Output/Report writes the page by itself, where the scene is refused, too.
+# Output/Report writes the page by itself, where the scene has an error, too.
 report = {"Output/Report": "true", "Refinement/Level": 1}
 run("press-fit.prm", "own", 0, report)
 p.expect((p.folder / "own/report.html").exists(), "no page by itself")
-run("press-fit.prm", "own-refused", 2, {**report, "Solid/Nonsense": 1})
-p.expect("REFUSED" in (p.folder / "own-refused/report.html").read_text(),
-         "no page of a refused scene")
+run("press-fit.prm", "own-error", 2, {**report, "Solid/Nonsense": 1})
+p.expect("INPUT ERROR" in (p.folder / "own-error/report.html").read_text(),
+         "no page of a scene with an error")
 result = p.call("run", prm / "press-fit.prm", "--output", "no-folder",
                 "--set", "Solid/Nonsense=1")
 p.expect(not (p.folder / "no-folder").exists(),
-         "a refused scene makes a folder")
+         "a scene with an error makes a folder")
 
 # Killed, and while it runs.
 process = subprocess.Popen(

@@ -5,7 +5,7 @@
 #include "app/chart/chart.h"
 #include "app/input/collective.h"
 #include "app/input/output_folder.h"
-#include "app/report/run_record.h"
+#include "app/report/status_file.h"
 #include "app/restart/restart.h"
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
@@ -133,16 +133,16 @@ namespace abut::app
       }
     }
 
-    /** What a run leaves in @p record when it ends by an error. */
-    void record_error(RunRecord &record, const std::exception &error,
+    /** What a run leaves in @p status when it ends by an error. */
+    void record_error(StatusFile &status, const std::exception &error,
                       const bool has_results)
     {
       if (dynamic_cast<const InputError *>(&error) != nullptr)
-        record.end(ExitCode::bad_input, error.what(), has_results);
+        status.end(ExitCode::bad_input, error.what(), has_results);
       else if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
-        record.end(ExitCode::bad_input, no_memory, has_results);
+        status.end(ExitCode::bad_input, no_memory, has_results);
       else
-        record.end(ExitCode::internal_error, error.what(), has_results);
+        status.end(ExitCode::internal_error, error.what(), has_results);
     }
 
     ExitCode solve_scene(LoadedScene &loaded, RunOptions options,
@@ -176,34 +176,34 @@ namespace abut::app
       MPI_Comm communicator = options.communicator;
       prepare_output(communicator, options.output_folder);
       const RunLock lock(options.output_folder, communicator);
-      RunRecord record(communicator, options.output_folder, line.words,
-                       line.file);
-      collective(communicator, [&] { record.begin(); });
+      StatusFile status(communicator, options.output_folder, line.words,
+                        line.file);
+      collective(communicator, [&] { status.begin(); });
       Report report(communicator, line.quiet);
       loaded.describe(report);
       try
       {
         const ExitCode code = solve_scene(loaded, options, line, report);
-        record.end(code, "", code != ExitCode::stopped);
+        status.end(code, "", code != ExitCode::stopped);
         return code;
       }
       catch (const InputError &error)
       {
-        record_error(record, loaded.file.placed(error), report.has_rows());
+        record_error(status, loaded.file.placed(error), report.has_rows());
         throw;
       }
       catch (const std::exception &error)
       {
-        record_error(record, error, false);
+        record_error(status, error, false);
         throw;
       }
     }
 
-    /** A scene that is refused before it runs leaves a record where there is a
-     * folder, or where its report is wanted. */
-    void record_refusal(MPI_Comm communicator, const CommandLine &line,
-                        const std::optional<ParameterFile> &file,
-                        const InputError &error)
+    /** A scene with an error that is found before the run begins leaves its
+     * status where there is a folder, or where its report is wanted. */
+    void record_early_error(MPI_Comm communicator, const CommandLine &line,
+                            const std::optional<ParameterFile> &file,
+                            const InputError &error)
     {
       const std::filesystem::path folder = output_folder(line);
       std::error_code ignored;
@@ -221,8 +221,8 @@ namespace abut::app
         if (is_root(communicator))
           for (const char *name : {"parameters.json", "outline.json"})
             std::filesystem::remove(folder / name, ignored);
-        RunRecord record(communicator, folder, line.words, line.file);
-        record_error(record, error, false);
+        StatusFile status(communicator, folder, line.words, line.file);
+        record_error(status, error, false);
       }
       catch (const InputError &)
       {
@@ -271,7 +271,7 @@ namespace abut::app
       catch (const InputError &error)
       {
         const InputError placed = file ? file->placed(error) : error;
-        record_refusal(communicator, line, file, placed);
+        record_early_error(communicator, line, file, placed);
         throw placed;
       }
       try

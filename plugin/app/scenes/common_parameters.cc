@@ -106,7 +106,7 @@ namespace abut::app
                       "Draw pictures (SVG) with gnuplot.");
     prm.declare_entry("Report", "false", Patterns::Bool(),
                       "Write a page about the run, report.html, as `abut "
-                      "report` does; also where the scene is refused.");
+                      "report` does; also where the scene has an error.");
     prm.leave_subsection();
   }
 

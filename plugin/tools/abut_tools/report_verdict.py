@@ -15,11 +15,11 @@ WORDS = {
     "no answer": ("bad", "NO ANSWER",
                   "There is no answer to rely on. The figures below are for "
                   "the search for the cause only."),
-    "refused": ("bad", "REFUSED", "The input is wrong; nothing was solved."),
-    "ended by an error": ("bad", "REFUSED",
-                          "The run ended by an error in the input before its "
-                          "end. The figures below are those of the part before "
-                          "it."),
+    "input error": ("bad", "INPUT ERROR",
+                    "The input has an error; nothing was solved."),
+    "late error": ("bad", "INPUT ERROR",
+                   "An error in the input ended the run. The figures below are "
+                   "those of the part before it."),
     "failed": ("bad", "INTERNAL ERROR",
                "The program failed; this is a fault of the program or of the "
                "machine."),
@@ -53,8 +53,8 @@ class Verdict:
                       else "no answer")
         if status == "running" and not is_locked(self.run.path):
             return "killed"
-        if status == "refused" and self.has_results:
-            return "ended by an error"
+        if status == "input error" and self.has_results:
+            return "late error"
         if status == "solved" and self.run.summary.get("warnings"):
             return "warning"
         return status if status in WORDS else "unknown"

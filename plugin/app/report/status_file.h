@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ABUT_APP_RUN_RECORD_H
-#define ABUT_APP_RUN_RECORD_H
+#ifndef ABUT_APP_STATUS_FILE_H
+#define ABUT_APP_STATUS_FILE_H
 
 #include "app/input/input_error.h"
 
@@ -15,13 +15,13 @@ namespace abut::app
   /** `run.json` in the output folder: how a run was started and how it ended.
    * Its status is "running" until the end, so that a run which is killed leaves
    * that word. Rank 0 writes, no function is collective. */
-  class RunRecord
+  class StatusFile
   {
   public:
     /** @param words of the command line without the program
      * @param scene_file as given */
-    RunRecord(MPI_Comm communicator, std::filesystem::path folder,
-              const std::vector<std::string> &words, std::string scene_file);
+    StatusFile(MPI_Comm communicator, std::filesystem::path folder,
+               const std::vector<std::string> &words, std::string scene_file);
 
     /** The run begins in its folder, which exists. */
     void begin();

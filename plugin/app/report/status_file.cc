@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "run_record.h"
+#include "status_file.h"
 
 #include "app/restart/disk.h"
 #include "json.h"
@@ -72,7 +72,7 @@ namespace abut::app
       case ExitCode::success:
         return "solved";
       case ExitCode::bad_input:
-        return "refused";
+        return "input error";
       case ExitCode::unusable_answer:
         return "no answer";
       case ExitCode::stopped:
@@ -84,9 +84,9 @@ namespace abut::app
     }
   } // namespace
 
-  RunRecord::RunRecord(MPI_Comm communicator, std::filesystem::path folder,
-                       const std::vector<std::string> &words,
-                       std::string scene_file)
+  StatusFile::StatusFile(MPI_Comm communicator, std::filesystem::path folder,
+                         const std::vector<std::string> &words,
+                         std::string scene_file)
       : folder(std::move(folder)),
         root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
         n_ranks(static_cast<int>(
@@ -97,9 +97,9 @@ namespace abut::app
   {
   }
 
-  std::string RunRecord::text(const std::string &status,
-                              const std::string &error, const bool has_results,
-                              const int code) const
+  std::string StatusFile::text(const std::string &status,
+                               const std::string &error, const bool has_results,
+                               const int code) const
   {
     std::ostringstream out;
     JsonWriter json(out);
@@ -125,14 +125,14 @@ namespace abut::app
     return out.str();
   }
 
-  void RunRecord::begin()
+  void StatusFile::begin()
   {
     if (root)
       replace_on_disk(folder / "run.json", text("running", "", false, no_code));
   }
 
-  void RunRecord::end(const ExitCode code, const std::string &error,
-                      const bool has_results) noexcept
+  void StatusFile::end(const ExitCode code, const std::string &error,
+                       const bool has_results) noexcept
   try
   {
     if (root && std::filesystem::is_directory(folder))
