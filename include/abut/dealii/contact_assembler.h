@@ -285,7 +285,7 @@ namespace abut
      * the iteration: writes the forces of the present pressures into
      * @p forces, as ContactResults::add_forces() adds them, and returns how far
      * pressures and the gaps there are from the law,
-     * \f$ (\sum w s r^2)^{1/2} \f$, root of an energy. In rows that are closed
+     * (sum w s r^2)^(1/2), root of an energy. In rows that are closed
      * r is the residual of the current linearisation of the law as a length,
      * else the penetration. 0 where the problem is solved. After the first
      * solve(); not for `nitsche`. */
