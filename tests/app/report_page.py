@@ -10,7 +10,7 @@ import re
 VOID = {"meta", "img", "br", "hr", "input", "link", "wbr"}
 # Digits that are no results: names of things, codes, norms.
 NAMES = re.compile(
-    r"\b(?:pair|body|obstacle|point|Pair|Body|Obstacle) \d+\b|ABUT-F\d+|\bL2\b"
+    r"\b(?:pair|body|obstacle|point|Pair|Body|Obstacle)\s\d+\b|ABUT-F\d+|\bL2\b"
     r"|\bH1\b|where it is not 0\b|at time 0\b")
 
 

@@ -4,13 +4,11 @@
 #include "app/input/collective.h"
 #include "app/report/json.h"
 #include "app/restart/disk.h"
-#include "zero_line.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <type_traits>
@@ -23,12 +21,8 @@ namespace abut::app
      * which curved ones are drawn in pieces. */
     constexpr std::size_t most_faces = 20000, few_faces = 1000;
 
-    /** Pieces of a curved edge, and points along a side of the frame in which
-     * obstacles are looked for. */
-    constexpr unsigned int n_pieces = 8, n_samples = 120;
-
-    /** Strip around the bodies in which obstacles are shown, by their size. */
-    constexpr double strip = 0.25;
+    /** Pieces of a curved edge. */
+    constexpr unsigned int n_pieces = 8;
 
     struct Surface
     {
@@ -134,48 +128,10 @@ namespace abut::app
       return surfaces;
     }
 
-    Raster frame_of(const dealii::Triangulation<2> &mesh)
-    {
-      const auto box =
-          dealii::GridTools::compute_bounding_box(mesh).get_boundary_points();
-      const double margin = strip * (box.second - box.first).norm();
-      Raster frame;
-      frame.x_min = box.first[0] - margin;
-      frame.x_max = box.second[0] + margin;
-      frame.y_min = box.first[1] - margin;
-      frame.y_max = box.second[1] + margin;
-      return frame;
-    }
-
-    std::vector<double> line_of(const RigidObstacle<2> &obstacle,
-                                const Raster &frame)
-    {
-      const auto distance = [&](const dealii::Point<2> &place)
-      {
-        std::vector<double> result;
-        try
-        {
-          obstacle.distance({place}, result);
-        }
-        catch (const std::exception &)
-        {
-          // A formula without a value there.
-          return std::numeric_limits<double>::quiet_NaN();
-        }
-        return result[0];
-      };
-      std::vector<double> line;
-      for (const auto &row : zero_line(frame, n_samples, distance))
-        if (row.size() == 2)
-          line.insert(line.end(), row.begin(), row.end());
-      return line;
-    }
-
     template <int dim>
-    std::string outline(
-        const dealii::Triangulation<dim> &mesh,
-        const std::function<SurfaceName(dealii::types::boundary_id)> &name,
-        const std::vector<std::shared_ptr<const RigidObstacle<dim>>> &obstacles)
+    std::string
+    outline(const dealii::Triangulation<dim> &mesh,
+            const std::function<SurfaceName(dealii::types::boundary_id)> &name)
     {
       std::ostringstream out;
       JsonWriter json(out);
@@ -194,12 +150,6 @@ namespace abut::app
         json.end();
       }
       json.end();
-      json.begin("obstacles");
-      if constexpr (dim == 2)
-        for (std::size_t o = 0; o < obstacles.size(); ++o)
-          json.value(std::to_string(o + 1),
-                     line_of(*obstacles[o], frame_of(mesh)));
-      json.end();
       json.end();
       return out.str();
     }
@@ -209,24 +159,21 @@ namespace abut::app
   void write_outline(
       const std::filesystem::path &folder, const MPI_Comm communicator,
       const dealii::Triangulation<dim> &mesh,
-      const std::function<SurfaceName(dealii::types::boundary_id)> &name,
-      const std::vector<std::shared_ptr<const RigidObstacle<dim>>> &obstacles)
+      const std::function<SurfaceName(dealii::types::boundary_id)> &name)
   {
-    collective(
-        communicator,
-        [&]
-        {
-          if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-            write_file(folder / "outline.json", outline(mesh, name, obstacles));
-        });
+    collective(communicator,
+               [&]
+               {
+                 if (dealii::Utilities::MPI::this_mpi_process(communicator)
+                     == 0)
+                   write_file(folder / "outline.json", outline(mesh, name));
+               });
   }
 
   template void write_outline<2>(
       const std::filesystem::path &, MPI_Comm, const dealii::Triangulation<2> &,
-      const std::function<SurfaceName(dealii::types::boundary_id)> &,
-      const std::vector<std::shared_ptr<const RigidObstacle<2>>> &);
+      const std::function<SurfaceName(dealii::types::boundary_id)> &);
   template void write_outline<3>(
       const std::filesystem::path &, MPI_Comm, const dealii::Triangulation<3> &,
-      const std::function<SurfaceName(dealii::types::boundary_id)> &,
-      const std::vector<std::shared_ptr<const RigidObstacle<3>>> &);
+      const std::function<SurfaceName(dealii::types::boundary_id)> &);
 } // namespace abut::app

@@ -3,11 +3,9 @@
 #define ABUT_APP_OUTLINE_H
 
 /** @file
- * `outline.json`: the boundary of the coarse mesh with its ids and the surfaces
- * of rigid obstacles, for sketches of a scene.
+ * `outline.json`: the boundary of the coarse mesh with its ids, for sketches of
+ * a scene.
  */
-
-#include <abut/dealii/rigid_obstacle.h>
 
 #include <deal.II/grid/tria.h>
 
@@ -15,9 +13,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace abut::app
 {
@@ -30,16 +26,13 @@ namespace abut::app
   };
 
   /** Write the file into @p folder (rank 0): by `body:id` the points of the
-   * surface and its facets, curved ones in pieces; in the plane by number (from
-   * 1) lines on which an obstacle's distance is zero, two points each. A mesh
-   * with very many boundary faces leaves the surfaces out. Collective. */
+   * surface and its facets, curved ones in pieces. A mesh with very many
+   * boundary faces leaves the surfaces out. Collective. */
   template <int dim>
   void write_outline(
       const std::filesystem::path &folder, MPI_Comm communicator,
       const dealii::Triangulation<dim> &mesh,
-      const std::function<SurfaceName(dealii::types::boundary_id)> &name,
-      const std::vector<std::shared_ptr<const RigidObstacle<dim>>> &obstacles =
-          {});
+      const std::function<SurfaceName(dealii::types::boundary_id)> &name);
 } // namespace abut::app
 
 #endif

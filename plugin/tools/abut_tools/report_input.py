@@ -39,7 +39,7 @@ def section_table(run, beginning, heading, names):
         return ""
     return f"<h3>{heading}</h3>\n" + table(
         [""] + [escape(name) for name in shown],
-        [[escape(section)] + [value_of(run, f"{section}/{name}")
+        [[escape(section).replace(" ", "&nbsp;")] + [value_of(run, f"{section}/{name}")
                               for name in shown] for section in sections])
 
 

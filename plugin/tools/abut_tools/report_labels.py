@@ -119,15 +119,24 @@ EFFORT = {
     "stable_time_step": ("largest stable time step", "time"),
 }
 
+# Measures of the examination, with the code of the message that belongs to them
+# (doc/failures.md); of pairs without pair_N_.
 EXAMINATION = {
-    "imbalance": "forces out of balance / contact forces",
-    "work_error": "works that contradict the energy",
-    "largest_strain": "largest strain",
-    "mean_strain": "mean strain of a body",
-    "missed_depth": "depth of the obstacle in cells without contact",
-    "condition": "condition number of the preconditioned matrix",
-    "volumetric_locking": "strain energy of volume change within cells",
-    "linear_stiffness_error": "strain energy that linear simplices lack",
+    "imbalance": ("forces out of balance / contact forces", "ABUT-F30"),
+    "work_error": ("works that contradict the energy", "ABUT-F38"),
+    "largest_strain": ("largest strain", "ABUT-F35"),
+    "mean_strain": ("mean strain of a body", "ABUT-F35"),
+    "condition": ("condition number of the preconditioned matrix", "ABUT-F30"),
+    "volumetric_locking": ("strain energy of volume change within cells",
+                           "ABUT-F16"),
+    "linear_stiffness_error": ("strain energy that linear simplices lack",
+                               "ABUT-F16"),
+    "penetration": ("", "ABUT-F06"),
+    "held_inside": ("", "ABUT-F26"),
+    "between_rows": ("", "ABUT-F19, ABUT-F37"),
+    "gap_error": ("", "ABUT-F36"),
+    "turn": ("", "ABUT-F36"),
+    "transfer_error": ("", "ABUT-F03"),
 }
 
 COLUMNS = {

@@ -162,8 +162,8 @@ def page(title, parts):
     """The page; `parts` are pairs of a heading (or "") and HTML."""
     listed = [(f"part-{i}", heading) for i, (heading, _) in enumerate(parts)
               if heading]
-    links = "".join(f'<a href="#{name}">{escape(heading)}</a>'
-                    for name, heading in listed)
+    links = " ".join(f'<a href="#{name}">{escape(heading)}</a>'
+                     for name, heading in listed)
     body = []
     for i, (heading, content) in enumerate(parts):
         if heading:

@@ -158,19 +158,14 @@ def examination(run):
             "value", "warning_above", "error_above"))
         tone, verdict = judged(value, warning, error)
         pair = re.fullmatch(r"pair_(\d+)_(.*)", name)
+        key = pair.group(2) if pair else name
+        words, code = labels.EXAMINATION.get(key, (key.replace("_", " "), ""))
         if pair:
-            words, dimension = labels.PAIR.get(
-                pair.group(2), (pair.group(2).replace("_", " "), ""))
-            words = f"pair {pair.group(1)}: {words}{labels.unit(dimension)}"
-        else:
-            words = labels.EXAMINATION.get(name, name.replace("_", " "))
-        code = measure["code"]
-        # Codes that were found stand at the head of the page.
+            words = f"pair {pair.group(1)}: {labels.label(labels.PAIR, key)}"
         rows.append([words, number(value, f"{where}/value", digits=3),
                      number(warning, f"{where}/warning_above", digits=3),
                      number(error, f"{where}/error_above", digits=3),
-                     f'<span class="{tone}">{verdict}</span>',
-                     quoted(code, f"{where}/code")])
+                     f'<span class="{tone}">{verdict}</span>', code])
     if not rows:
         return ""
     return table(["measure", "value", "warning above", "error above", "",

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A sketch of the problem: outlines with boundary ids, supports and loads as
-symbols, pairs coloured, obstacles. From outline.json and parameters.json."""
+symbols, pairs coloured, obstacles. From outline.json, obstacles.vtu and
+parameters.json."""
 import io
 import json
 import re
@@ -8,6 +9,10 @@ import re
 import numpy
 
 from . import style
+from .vtu import read_mesh
+
+# Width of the picture, and its largest height, in mm.
+WIDTH, HEIGHT = 120, 120
 
 PAIRS = (style.VERMILION, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE,
          style.SKY)
@@ -49,15 +54,29 @@ class Surface:
 
 
 def read_surfaces(run):
-    """Surfaces of the outline, its lines of obstacles by number, and the
-    dimension."""
+    """Surfaces of the outline, and the dimension."""
     if not run.has("outline.json"):
-        return [], {}, 0
+        return [], 0
     data = json.loads((run.path / "outline.json").read_text(encoding="utf-8"))
     dimension = data["dimension"]
     return ([Surface(entry, dimension) for entry in data["surfaces"].values()],
-            {int(number): numpy.array(line).reshape(-1, 2, dimension)
-             for number, line in data["obstacles"].items()}, dimension)
+            dimension)
+
+
+def read_obstacles(run, dimension):
+    """Facets of rigid obstacles at time 0 by number, from obstacles.vtu."""
+    if not run.has("obstacles.vtu"):
+        return {}
+    mesh = read_mesh(run.path / "obstacles.vtu")
+    if not mesh.cells:
+        return {}
+    motion = numpy.column_stack([mesh.cell_fields[f"motion_{axis}"]
+                                 for axis in "xyz"[:dimension]])
+    corners = mesh.points[numpy.array(mesh.cells)][:, :, :dimension] \
+        - motion[:, None, :]
+    numbers = mesh.cell_fields["obstacle"].astype(int)
+    return {int(number): corners[numbers == number]
+            for number in numpy.unique(numbers)}
 
 
 def entries(text):
@@ -141,7 +160,9 @@ class Sketch:
 
     def __init__(self, run):
         self.run = run
-        self.surfaces, self.obstacles, self.dimension = read_surfaces(run)
+        self.surfaces, self.dimension = read_surfaces(run)
+        self.obstacles = read_obstacles(run, self.dimension) \
+            if self.surfaces else {}
         self.notes = []  # what symbols and colours mean
 
     def __bool__(self):
@@ -165,12 +186,12 @@ class Sketch:
     def shape(self):
         """Width and height of the picture in mm."""
         if self.dimension == 3:
-            return style.PAGE, 110
+            return WIDTH, 90
         low, high = self.box()
         size = (high - low) + 0.3 * (high - low).max()
-        height = style.PAGE * size[1] / size[0]
-        return (style.PAGE, max(45, height)) if height < 130 else (
-            max(60, 130 * size[0] / size[1]), 130)
+        height = WIDTH * size[1] / size[0]
+        return (WIDTH, max(35, height)) if height < HEIGHT else (
+            max(50, HEIGHT * size[0] / size[1]), HEIGHT)
 
     def middle(self, body):
         """Of the surfaces of a body."""
@@ -222,7 +243,6 @@ class Sketch:
                 axes.add_patch(style.matplotlib.patches.PathPatch(
                     style.matplotlib.path.Path(path, codes), facecolor=BODY,
                     edgecolor="none"))
-                self.body_name(axes, body)
             for surface in of_body:
                 lines = surface.points[surface.facets]
                 axes.add_collection(style.matplotlib.collections.LineCollection(
@@ -239,11 +259,18 @@ class Sketch:
         self.draw_loads(axes)
         self.draw_ids(axes)
 
-    def body_name(self, axes, body):
-        if len(self.run.sections("Body")) < 2:
-            return
-        axes.annotate(f"body {body}", self.middle(body), ha="center",
-                      va="center", color="#5b6470", zorder=1)
+    def name(self, surface):
+        """Its name in the mesh file or its id, with the body where there are
+        several."""
+        names = re.findall(r"'([^']*)'", surface.names)
+        several = len(self.run.sections("Body")) > 1
+        return names[0] if names else (
+            f"{surface.body}: {surface.id}" if several else str(surface.id))
+
+    def note_names(self):
+        self.notes.append("numbers: bodies and boundary ids"
+                          if len(self.run.sections("Body")) > 1
+                          else "numbers and names: boundary ids")
 
     def outward(self, surface, place, normal):
         """The normal that points away from the body's middle."""
@@ -303,8 +330,14 @@ class Sketch:
                    f" and obstacle {obstacle}" if obstacle != "0" else ""))
 
     def draw_supports(self, axes):
-        any_drawn = False
+        any_drawn = is_clamped = False
         for surface, words in self.supports():
+            prescribed = [word for word in words if word != "free"]
+            if len(prescribed) == 2:
+                is_clamped = True
+                self.clamp(axes, surface, any(word not in ("0", "0.")
+                                              for word in prescribed))
+                continue
             for direction, word in enumerate(words):
                 if word == "free":
                     continue
@@ -319,6 +352,21 @@ class Sketch:
         if any_drawn:
             self.notes.append("triangles: displacement prescribed along their "
                               "axis, filled where it is not 0")
+
+        if is_clamped:
+            self.notes.append("hatched: displacement prescribed in all "
+                              "directions, thick where it is not 0")
+
+    def clamp(self, axes, surface, is_moved):
+        """Short lines away from the body."""
+        lines = []
+        for place, normal in surface.samples(15):
+            out = self.outward(surface, place, normal)
+            across = numpy.array([-out[1], out[0]])
+            lines.append([place, place + 0.03 * self.size * (out + across)])
+        axes.add_collection(style.matplotlib.collections.LineCollection(
+            lines, colors=SUPPORT, linewidths=1.6 if is_moved else 0.7,
+            zorder=2))
 
     def triangle(self, axes, place, towards, is_moved):
         across = numpy.array([-towards[1], towards[0]])
@@ -358,11 +406,9 @@ class Sketch:
         for surface in self.surfaces:
             place, normal = surface.samples(1)[0]
             out = self.outward(surface, place, normal)
-            name = re.findall(r"'([^']*)'", surface.names)
-            axes.annotate(name[0] if name else str(surface.id),
-                          place - 0.035 * self.size * out, ha="center",
+            axes.annotate(self.name(surface), place - 0.035 * self.size * out, ha="center",
                           va="center", fontsize=7, color="#1b1f24", zorder=5)
-        self.notes.append("numbers and names inside: boundary ids")
+        self.note_names()
 
     # In space.
 
@@ -377,8 +423,7 @@ class Sketch:
                 f'<span style="color:{colour}">&#9632;</span> pair {number}: '
                 "secondary surface" + (
                     " and primary surface (paler)" if primary else
-                    f"; obstacle {obstacle}, not drawn" if obstacle != "0"
-                    else ""))
+                    f"; obstacle {obstacle}" if obstacle != "0" else ""))
         fixed = {id(surface) for surface, words in self.supports()
                  if any(word != "free" for word in words)}
         loaded = {id(surface) for surface, _, _ in self.loads()}
@@ -393,18 +438,22 @@ class Sketch:
                 and id(surface) not in dashed else 0.35))
             marks = (" ▲" if id(surface) in fixed else "") + (
                 " ↓" if id(surface) in loaded else "")
-            name = re.findall(r"'([^']*)'", surface.names)
             # Surfaces that touch have their names apart.
             place = (0.85 * surface.points.mean(axis=0)
                      + 0.15 * self.middle(surface.body))
-            axes.text(*place, (name[0] if name else str(surface.id)) + marks,
-                      fontsize=9, ha="center", zorder=10)
+            axes.text(*place, self.name(surface) + marks, fontsize=9, ha="center", zorder=10)
         low, high = self.box()
+        for corners in self.obstacles.values():
+            axes.add_collection3d(collection.Poly3DCollection(
+                corners, facecolors="#303030", alpha=0.25, linewidths=0,
+                rasterized=True))
+        if self.obstacles:
+            self.notes.append("grey: rigid obstacles at time 0")
         for name, a, b in zip("xyz", low, high):
             getattr(axes, f"set_{name}lim")(a, b)
         axes.set_box_aspect(high - low)
         axes.set_axis_off()
-        self.notes.append("numbers and names: boundary ids")
+        self.note_names()
         if fixed:
             self.notes.append("▲: displacement prescribed")
         if loaded:

@@ -96,10 +96,6 @@ namespace abut::app
     // A check writes nothing, and has no checkpoints.
     if (run.options.restart == nullptr)
       return;
-    pairs->set_length(half_extent(this->triangulation));
-    std::vector<std::shared_ptr<const RigidObstacle<dim>>> obstacles;
-    for (const auto &obstacle : pairs->moved_obstacles())
-      obstacles.push_back(obstacle.shape);
     write_outline<dim>(
         run.options.output_folder, run.communicator, this->triangulation,
         [this](const boundary_id number)
@@ -107,8 +103,7 @@ namespace abut::app
           const unsigned int body = bodies.body_of(number);
           const boundary_id id = bodies.user_id(number);
           return SurfaceName{body + 1, id, bodies.names(body).names_of(id)};
-        },
-        obstacles);
+        });
   }
 
   template <int dim>
