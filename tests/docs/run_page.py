@@ -127,7 +127,10 @@ class Page:
 
     def expect(self, _, __, text):
         file, key, value, tolerance = text.split()
-        found = json.loads((self.folder / file).read_text(encoding="utf-8"))[key]
+        file = self.folder / file
+        if not file.exists():
+            return f"no file {file.name}"
+        found = json.loads(file.read_text(encoding="utf-8"))[key]
         numbers = found if isinstance(found, list) else [found]
         wanted = [float(one) for one in value.split(",")]
         if len(numbers) != len(wanted) or not all(
