@@ -51,12 +51,9 @@ namespace abut::shim
     // Only what is near the other side: facets at the nodes of rows.
     std::vector<std::uint8_t> near(surface_.nodes.size(), 0);
     const auto mark = [&](const NodeIndex node, double) { near[node] = 1; };
-    for (std::size_t i = 0; i < points_.places().size(); ++i)
-      if (&pairs_[points_.places()[i].pair] == &pair)
-      {
-        points_.for_each_secondary(i, mark);
-        points_.for_each_primary(i, mark);
-      }
+    for (std::int32_t i = 0; i < points_.view().n_points; ++i)
+      if (&pairs_[points_.places().pair[i]] == &pair)
+        points_.for_each_node(i, mark);
     const auto turns = [&](const SurfaceSide<dim> &side)
     {
       std::vector<std::uint8_t> mask(side.n_facets());
@@ -254,7 +251,8 @@ namespace abut::shim
     SurfacePair<dim> &pair = pairs_[number];
     abut_coupling_statistics statistics;
     check(host_.context,
-          abut_coupling_get_statistics(pair.coupling.get(), &statistics));
+          abut_coupling_get_statistics(
+              abut_interface_coupling(pair.interface.get()), &statistics));
     const SideMeasures &sizes = pair.secondary.everywhere;
 
     PairCheck result;
