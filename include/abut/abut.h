@@ -32,6 +32,7 @@
 #include <abut/obstacle_edge.h>
 #include <abut/obstacle_facets.h>
 #include <abut/obstacle_surface.h>
+#include <abut/pair_checks.h>
 #include <abut/parts.h>
 #include <abut/places.h>
 #include <abut/points.h>

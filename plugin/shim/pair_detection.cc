@@ -12,11 +12,9 @@
 #include "stopwatch.h"
 
 #include <abut/coupling_search.h>
-#include <abut/dealii/coded.h>
+#include <abut/pair_checks.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <unordered_map>
 
 namespace abut::shim
@@ -279,31 +277,23 @@ namespace abut::shim
     check(host_.context,
           abut_points_gap(points_.handle(), static_cast<std::int32_t>(n_nodes),
                           made.data(), gap.data()));
-    // Equal distances are those of the first pair, round-off or not.
-    constexpr double nearly = 1. - 1e-8;
-    std::vector<double> least(n_nodes, std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> nearest(n_nodes, pairs_.size());
     for (std::int32_t i = 0; i < points_.view().n_points; ++i)
     {
-      const NodeIndex node = points_.places().node[i];
-      if (node < 0)
-        continue;
-      const std::size_t p = points_.places().pair[i];
-      const SurfacePair<dim> &pair = pairs_[p];
+      const SurfacePair<dim> &pair = pairs_[points_.places().pair[i]];
       const std::int32_t row = points_.view().component_start[i];
       // Gaps are those of displacement 0.
-      const double distance =
-          std::abs((pair.is_displaced() ? gap[row] : points_.view().gap[row])
-                   - pair.data.gap);
-      if (distance < nearly * least[node])
-      {
-        least[node] = distance;
-        nearest[node] = p;
-      }
+      if (!pair.is_displaced())
+        gap[row] = points_.view().gap[row];
+      gap[row] -= pair.data.gap;
     }
+    std::vector<std::int32_t> nearest(n_nodes);
+    check(host_.context,
+          abut_points_nearest_pair(points_.handle(), gap.data(),
+                                   static_cast<std::int32_t>(n_nodes),
+                                   nearest.data()));
     std::vector<std::uint8_t> marks(n_nodes * pairs_.size(), 0);
     for (std::size_t n = 0; n < n_nodes; ++n)
-      if (nearest[n] < pairs_.size())
+      if (nearest[n] >= 0)
         marks[nearest[n] * n_nodes + n] = 1;
     points_.exchange().merge_marks(surface_, marks);
     for (std::size_t p = 0; p < pairs_.size(); ++p)

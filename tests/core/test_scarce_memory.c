@@ -17,6 +17,7 @@
 #include <abut/interface.h>
 #include <abut/missed_contact.h>
 #include <abut/obstacle_facets.h>
+#include <abut/pair_checks.h>
 
 #include <string.h>
 
@@ -471,6 +472,14 @@ obstacle_in_facets(world *w)
   TRY(abut_obstacle_narrowest(w->obstacle, w->a, &samples, &beside));
   TRY(abut_obstacle_beside_facet(w->obstacle, w->a, &samples,
                                  w->mesh_a.position, &beside));
+  int32_t same = 0, material = 0;
+  uint8_t marked[64];
+  bool bends = false;
+  double above = 0., below = 0.;
+  memset(marked, 1, sizeof(marked));
+  TRY(abut_obstacle_faces_away(w->obstacle, w->a, NULL, 0.1, &same, &material));
+  TRY(abut_surface_bends(w->a, 1., marked, &bends));
+  TRY(abut_surface_nearest(w->context, w->a, w->b, NULL, &above, &below));
   note(w, n);
   note(w, beside.width);
   return ABUT_SUCCESS;
