@@ -40,12 +40,9 @@ extern "C"
    * @param sums out, [n_pairs]
    *
    * O(components). */
-  ABUT_API abut_status abut_points_friction(const abut_points *points,
-                                            int32_t n_pairs,
-                                            const double *value,
-                                            const double *slip,
-                                            const uint8_t *state,
-                                            abut_friction_sums *sums);
+  ABUT_API abut_status abut_points_friction(
+      const abut_points *points, int32_t n_pairs, const double *value,
+      const double *slip, const uint8_t *state, abut_friction_sums *sums);
 
   /** Properties of a pair, bits. */
   typedef enum abut_pair_mark
@@ -65,8 +62,8 @@ extern "C"
    *
    * O(points), if few points share a node. */
   ABUT_API abut_status abut_points_cover(const abut_points *points,
-                                         int32_t n_pairs,
-                                         const uint8_t *marks, uint8_t *keep);
+                                         int32_t n_pairs, const uint8_t *marks,
+                                         uint8_t *keep);
 
   /** Normals of other points of contact at the nodes of @p n points.
    *
@@ -75,8 +72,8 @@ extern "C"
    * @param rival_point out, [n_rivals] place in @p first, ascending; NULL: only
    *   the number is found
    * @param rival_row out, [n_rivals] component of the normal; or NULL */
-  ABUT_API abut_status abut_points_rivals(const abut_points *points,
-                                          int32_t n, const int32_t *first,
+  ABUT_API abut_status abut_points_rivals(const abut_points *points, int32_t n,
+                                          const int32_t *first,
                                           int32_t *n_rivals,
                                           int32_t *rival_point,
                                           int32_t *rival_row);

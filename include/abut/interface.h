@@ -28,9 +28,9 @@ extern "C"
   typedef struct abut_interface_options
   {
     size_t struct_size; /**< sizeof(abut_interface_options) */
-    /** Of the coupling. Left to the interface are: interpolated gaps, which
-     * points of bodies do not have that go on from the last step, and the skin
-     * of a search where bodies are displaced: one facet, if it is 0. */
+    /** Coupling of the sides. Left to the interface are: interpolated gaps,
+     * which points of bodies do not have that go on from the last step, and the
+     * skin of a search where bodies are displaced: one facet, if it is 0. */
     abut_coupling_options coupling;
     abut_kinematics kinematics; /**< default: reference */
     int32_t number;             /**< of the pair, in places; default 0 */

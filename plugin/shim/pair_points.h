@@ -292,7 +292,7 @@ namespace abut::shim
   template <int dim> class NodePositions
   {
   public:
-    /** @p u: present displacements; empty: not known. */
+    /** @p u: displacements now; empty: not known. */
     NodePositions(const PairPoints<dim> &points,
                   const std::vector<Direction<dim>> &u);
 

@@ -44,7 +44,7 @@ abut_status abut_places_append(abut_places *places, const abut_place *place,
 void abut_places_keep(abut_places *places, int32_t i, int32_t n_components,
                       const uint8_t *keep);
 
-/* Those of a set. */
+/* The places of a set. */
 abut_places *abut_points_places(abut_points *points);
 
 /* New numbers of nodes; false and unchanged if one is negative or out of range.
