@@ -2,10 +2,10 @@
 #ifndef ABUT_SHIM_HANDLES_H
 #define ABUT_SHIM_HANDLES_H
 
-#include <abut/coupling.h>
 #include <abut/dealii/coded.h>
 #include <abut/detect.h>
 #include <abut/history.h>
+#include <abut/interface.h>
 #include <abut/obstacle.h>
 #include <abut/points.h>
 #include <abut/search.h>
@@ -37,9 +37,9 @@ namespace abut::shim
     {
       abut_strategy_destroy(&object);
     }
-    void operator()(abut_coupling *object) const
+    void operator()(abut_interface *object) const
     {
-      abut_coupling_destroy(&object);
+      abut_interface_destroy(&object);
     }
     void operator()(abut_surface *object) const
     {

@@ -10,6 +10,7 @@
 #include "passage_check.h"
 
 #include <abut/dealii/coded.h>
+#include <abut/pair_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,35 +52,19 @@ namespace abut::shim
     // Only what is near the other side: facets at the nodes of rows.
     std::vector<std::uint8_t> near(surface_.nodes.size(), 0);
     const auto mark = [&](const NodeIndex node, double) { near[node] = 1; };
-    for (std::size_t i = 0; i < points_.places().size(); ++i)
-      if (&pairs_[points_.places()[i].pair] == &pair)
-      {
-        points_.for_each_secondary(i, mark);
-        points_.for_each_primary(i, mark);
-      }
+    for (std::int32_t i = 0; i < points_.view().n_points; ++i)
+      if (&pairs_[points_.places().pair[i]] == &pair)
+        points_.for_each_node(i, mark);
     const auto turns = [&](const SurfaceSide<dim> &side)
     {
-      std::vector<std::uint8_t> mask(side.n_facets());
-      abut_surface_view view;
-      check(host_.context, abut_surface_get(side.surface.get(), &view));
-      if (side.n_facets() > 0)
-        check(host_.context,
-              abut_surface_features(side.surface.get(),
-                                    large_rotation * M_PI / 180. - 1e-6,
-                                    mask.data()));
+      std::vector<std::uint8_t> marked;
+      for (const NodeIndex node : side.node)
+        marked.push_back(near[node]);
       bool found = false;
-      for (int f = 0; f < side.n_facets() && !found; ++f)
-      {
-        bool is_near = false;
-        for (std::int32_t i = view.facet_start[f]; i < view.facet_start[f + 1];
-             ++i)
-          is_near = is_near || near[side.node[view.connectivity[i]]] != 0;
-        for (int k = 0; k < 4 && is_near; ++k)
-          found =
-              found
-              || ((mask[f] >> k & 1) != 0
-                  && view.neighbour[4 * static_cast<std::size_t>(f) + k] >= 0);
-      }
+      check(host_.context,
+            abut_surface_bends(side.surface.get(),
+                               large_rotation * M_PI / 180. - 1e-6,
+                               marked.data(), &found));
       return MPI::max(found ? 1 : 0, host_.communicator) != 0;
     };
     const bool secondary = turns(pair.secondary);
@@ -191,44 +176,23 @@ namespace abut::shim
   std::string PairInspection<dim>::wrong_side(SurfacePair<dim> &pair) const
   {
     const SurfaceSide<dim> &side = pair.secondary;
-    const double *normal = nullptr;
-    check(host_.context, abut_surface_normals(side.surface.get(), &normal));
-    std::vector<dealii::Point<dim>> points;
-    std::vector<Direction<dim>> normals;
-    for (int n = 0; n < side.n_nodes(); ++n)
-      if (points_.set().is_owned(side.node[n]))
-      {
-        normals.emplace_back();
-        for (unsigned int d = 0; d < dim; ++d)
-          normals.back()[d] = normal[n * dim + d];
-        points.push_back(surface_.nodes[side.node[n]].point);
-      }
+    std::vector<std::uint8_t> owned;
+    for (const NodeIndex node : side.node)
+      owned.push_back(points_.set().is_owned(node));
     // Nodes; those where both normals point the same way; of these, those with
     // the obstacle's material within a facet behind them, in their body.
-    double count[3] = {double(points.size()), 0., 0.};
+    std::int32_t same = 0, material = 0;
     run_everywhere<ContactError>(
         host_.communicator,
         [&]
         {
-          std::vector<double> distance;
-          std::vector<Direction<dim>> outward;
-          pair.data.obstacle->distance(points, distance, &outward);
-          std::vector<std::uint8_t> same_direction(points.size(), 0);
-          for (std::size_t n = 0; n < points.size(); ++n)
-            count[1] += same_direction[n] = outward[n] * normals[n] > 0.;
-          // Along the inward normals; thin obstacles are not to be passed by.
-          constexpr int n_steps = 32;
-          std::vector<std::uint8_t> met(points.size(), 0);
-          for (int k = 0; k < n_steps; ++k)
-          {
-            for (std::size_t n = 0; n < points.size(); ++n)
-              points[n] -= side.everywhere.median / n_steps * normals[n];
-            pair.data.obstacle->distance(points, distance);
-            for (std::size_t n = 0; n < points.size(); ++n)
-              met[n] |= same_direction[n] != 0 && distance[n] < 0.;
-          }
-          count[2] += double(std::count(met.begin(), met.end(), 1));
+          check(*pair.data.obstacle,
+                abut_obstacle_faces_away(
+                    pair.data.obstacle->handle(), side.surface.get(),
+                    owned.data(), side.everywhere.median, &same, &material));
         });
+    double count[3] = {double(std::count(owned.begin(), owned.end(), 1)),
+                       double(same), double(material)};
     MPI::sum(count, host_.communicator, count);
     if (count[1] == 0.)
       return "";
@@ -254,7 +218,8 @@ namespace abut::shim
     SurfacePair<dim> &pair = pairs_[number];
     abut_coupling_statistics statistics;
     check(host_.context,
-          abut_coupling_get_statistics(pair.coupling.get(), &statistics));
+          abut_coupling_get_statistics(
+              abut_interface_coupling(pair.interface.get()), &statistics));
     const SideMeasures &sizes = pair.secondary.everywhere;
 
     PairCheck result;

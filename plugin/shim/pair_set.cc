@@ -6,8 +6,8 @@
 #include "agree.h"
 #include "fnv_hash.h"
 #include "host_cells.h"
-#include "pair_coupling.h"
 #include "pair_diagnosis.h"
+#include "pair_interface.h"
 
 #include <abut/dealii/coded.h>
 
@@ -418,7 +418,7 @@ namespace abut::shim
   template <int dim> void PairSet<dim>::create_sides(SurfacePair<dim> &pair)
   {
     const ContactPair<dim> &data = pair.data;
-    pair.coupling.reset();
+    pair.interface.reset();
     // The same whatever a rank knows of other ranks' facets.
     const bool is_measured = pair.secondary.everywhere.n_facets > 0;
     const SideMeasures secondary = pair.secondary.everywhere,
@@ -447,8 +447,9 @@ namespace abut::shim
                  [&]
                  {
                    check_sides(pair);
-                   pair.coupling =
-                       make_coupling(host_, pair, pair.discretisation);
+                   pair.interface =
+                       make_interface(host_, pair, &pair - pairs_.data(),
+                                      pair.discretisation, pair.kinematics);
                  });
   }
 
