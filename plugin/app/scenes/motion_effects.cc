@@ -9,7 +9,7 @@ namespace abut::app
     EffectRule of_scheme(const std::string &name, const std::string &scheme)
     {
       return effective_if(
-          "Time/" + name, Weight::data,
+          "Time stepping/" + name, Weight::data,
           [scheme](const SceneValues &values)
           { return values("Time stepping/Scheme") == scheme; },
           "it belongs to Time stepping/Scheme = " + scheme + ".");
