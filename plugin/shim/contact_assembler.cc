@@ -508,7 +508,7 @@ namespace abut
     result.reason = i.is_started ? i.request.reason : ABUT_REASON_NONE;
     result.failure = abut_reason_failure(
         result.reason, i.input.method.options.law, &result.progress);
-    const std::string seen = abut_context_message(i.context.get());
+    const std::string seen = shim::core_message(i.context.get());
     const bool failed = result.reason != ABUT_REASON_NONE
                         && result.reason != ABUT_REASON_CONVERGED;
     // Remedies for other methods that do not contract are of no use with

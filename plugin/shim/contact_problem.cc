@@ -190,7 +190,7 @@ namespace abut::shim
       need(i.input.is_nitsche(), "Nitsche's method");
       need(i.input.method.system == System::saddle_point,
            "Method/System = saddle point");
-      need(i.moves(), "Contact at points that move (Method/Sliding)");
+      need(i.moves(), "Contact with Method/Contact geometry = current");
       need(i.input.solver.linear == Linear::direct,
            "Solver/Linear solver = direct");
       need(i.input.solver.linear == Linear::geometric,
@@ -253,9 +253,8 @@ namespace abut::shim
   void ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
   {
     AssertThrow(!input.is_nitsche(),
-                ExcMessage("The forces of Nitsche's method "
-                           "are not those of its pressures "
-                           "alone."));
+                ExcMessage("Forces of Nitsche's method do not "
+                           "follow from its pressures alone."));
     add_forces(forces);
   }
 
@@ -338,8 +337,8 @@ namespace abut::shim
     else
     {
       AssertThrow(has_obstacle,
-                  ExcMessage("There is nothing to touch: call set_obstacle() "
-                             "or set_pairs() first."));
+                  ExcMessage("There is no obstacle and no pair: call "
+                             "set_obstacle() or set_pairs() first."));
       AssertThrow(
           host.dof_handler().get_fe().n_components() == 1,
           ExcMessage(
@@ -407,7 +406,7 @@ namespace abut::shim
     if (surfaces != nullptr && input.makes_points_at_commits())
     {
       committed.check(
-          "Points of ABUT_KINEMATICS_UPDATED are made where bodies were at");
+          "Points of ABUT_KINEMATICS_UPDATED are created at the positions of");
       surfaces->set().set_place(committed.displacement());
     }
     if (surfaces != nullptr)

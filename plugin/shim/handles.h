@@ -2,6 +2,8 @@
 #ifndef ABUT_SHIM_HANDLES_H
 #define ABUT_SHIM_HANDLES_H
 
+#include "shim/core_message.h"
+
 #include <abut/dealii/coded.h>
 #include <abut/detect.h>
 #include <abut/history.h>
@@ -70,12 +72,12 @@ namespace abut::shim
   {
     const bool has_message =
         context != nullptr && *abut_context_message(context) != 0;
-    AssertThrow(status == ABUT_SUCCESS,
-                dealii::ExcMessage(coded(
-                    status == ABUT_INVALID_MESH ? ABUT_FAILURE_DEGENERATE_FACET
-                                                : ABUT_FAILURE_NONE,
-                    has_message ? abut_context_message(context)
-                                : abut_status_text(status))));
+    AssertThrow(
+        status == ABUT_SUCCESS,
+        dealii::ExcMessage(coded(
+            status == ABUT_INVALID_MESH ? ABUT_FAILURE_DEGENERATE_FACET
+                                        : ABUT_FAILURE_NONE,
+            has_message ? core_message(context) : abut_status_text(status))));
   }
 
   inline Handle<abut_context> create_context()

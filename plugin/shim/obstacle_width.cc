@@ -18,9 +18,9 @@ namespace abut::shim
     text.precision(3);
     text << "the obstacle is only " << width << " wide where facets of size "
          << facet
-         << " are near it: single nodes know of it, or none, and its force is "
-            "theirs. Refine the surface there, until several facets are "
-            "under it.";
+         << " are near it: single nodes at most touch it, and the force is "
+            "theirs. Refine the surface there until several facets are under "
+            "it.";
     return text.str();
   }
 

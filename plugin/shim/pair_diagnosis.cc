@@ -69,7 +69,7 @@ namespace abut::shim
            << (opposed.below > reach
                    ? ", more than the reach of "
                    : ", more than half of the body's thickness, or at an edge "
-                     "or a corner alone, within the reach of ")
+                     "or a corner only, within the reach of ")
            << reach
            << ". Move them apart, or give the pair a larger reach if the "
               "overlap is meant as interference.";
@@ -81,9 +81,9 @@ namespace abut::shim
       if (std::min(any.above, any.below) < INFINITY)
       {
         failure = ABUT_FAILURE_WRONG_SIDE;
-        text << "the outward normals of the two surfaces point the same way. "
-                "Take the sides that face each other, or turn the mesh whose "
-                "cells are inside out.";
+        text << "the outward normals of the two surfaces point in the same "
+                "direction. Use the sides that face each other, or repair the "
+                "mesh with inverted cells.";
       }
       else
         text << "no point of one surface lies opposite the other. Check the "

@@ -139,11 +139,11 @@ namespace abut::shim
                    ? text(depth / found.facet_size)
                          + " times the size of a facet. "
                    : text(depth / body) + " times the thickness of a body. ")
-            + (is_obstacle ? "Motions throw them out in their first step, in "
-                             "equilibrium its force moves the obstacle out: "
-                             "begin where the two are apart."
-                           : "If that is not meant as interference, move "
-                             "the bodies apart."));
+            + (is_obstacle
+                   ? "In dynamics the first step removes this penetration and "
+                     "adds energy; in equilibrium its force moves the obstacle "
+                     "out. Start with the two apart."
+                   : "Move the bodies apart, unless interference is meant."));
   }
 
   template <int dim>
@@ -197,15 +197,15 @@ namespace abut::shim
     if (count[1] == 0.)
       return "";
     std::ostringstream text;
-    text << "the outward normals of the surface and of the obstacle point the "
-            "same way at "
+    text << "the outward normals of the surface and of the obstacle point in "
+            "the same direction at "
          << count[1] << " of " << count[0] << " nodes";
     if (2. * count[2] <= count[0])
       return text.str() + ".";
     text << ", and within a facet behind " << count[2]
-         << " of them, where the body is, there is the obstacle's material. "
-            "Turn the obstacle (its Normal, the sign of a distance, Axis or "
-            "Hollow), or take the side of the body that faces it; a thin "
+         << " of them, inside the body, there is the obstacle's material. "
+            "Reverse the obstacle (Normal, sign of a distance, Axis or "
+            "Hollow), or use the side of the body that faces it. A thin "
             "obstacle may have passed through the surface.";
     points_.set().refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, text.str()));
     return text.str();
@@ -256,8 +256,7 @@ namespace abut::shim
           ABUT_FAILURE_COARSE_SECONDARY,
           "The secondary surface is " + text(result.size_ratio)
               + " times as coarse as the primary, whose nodes can pass between "
-                "those of the secondary: exchange the two sides, or refine the "
-                "secondary."));
+                "its nodes. Exchange the two sides, or refine the secondary."));
     result.first_overlap = first_overlap(number, result.overlap);
     const Message overlap = overlap_at_start(pair, result);
     if (!overlap.empty())
@@ -271,23 +270,23 @@ namespace abut::shim
           std::max(sizes.smallest, pair.primary.everywhere.smallest);
       const double width = std::pow(result.covered_area, 1. / (dim - 1));
       if (width < narrow_zone * smallest)
-        result.warnings.push_back(coded(
-            ABUT_FAILURE_UNSEEN,
-            "The surfaces meet on a width of " + text(width)
-                + ", where the smallest facet of one of them is "
-                + text(smallest)
-                + ": only its nodes feel that, and it sinks in far less than "
-                  "it should. Refine this surface there."));
+        result.warnings.push_back(
+            coded(ABUT_FAILURE_UNSEEN,
+                  "The surfaces meet on a width of " + text(width)
+                      + ", where the smallest facet of one of them is "
+                      + text(smallest)
+                      + ": the load acts on single nodes, and the penetration "
+                        "is far too small. Refine this surface there."));
     }
     const std::string bends = turning_facets(pair);
     if (!bends.empty())
-      result.warnings.push_back(coded(
-          ABUT_FAILURE_COARSE_CURVE,
-          "Facets of the " + bends + " turn by more than "
-              + text(large_rotation)
-              + " degrees at a node in the contact zone: normals and gaps "
-                "there are those of a polygon, and so are the pressures. "
-                "Refine the surface, or leave the corner out of the pair."));
+      result.warnings.push_back(
+          coded(ABUT_FAILURE_COARSE_CURVE,
+                "Facets of the " + bends + " bend by more than "
+                    + text(large_rotation)
+                    + " degrees at a node in the contact zone: normals, gaps "
+                      "and pressures are those of a polygon. Refine the "
+                      "surface, or leave the corner out of the pair."));
     const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
@@ -323,10 +322,9 @@ namespace abut::shim
         && is_prescribed(number))
       result.warnings.back() =
           coded(ABUT_FAILURE_HELD_NODES,
-                "supports prescribe the displacement along the normal of all "
-                "nodes of the secondary surface, so that contact cannot move "
-                "them. Exchange the two sides, or leave some of the nodes free "
-                "along the normal.");
+                "the normal displacement of all nodes of the secondary surface "
+                "is prescribed, and contact cannot move them. Exchange the two "
+                "sides, or leave nodes free along the normal.");
     points_.checks().push_back(result);
     // Rigid obstacles may come nearer in later steps; the reference
     // configuration of bodies stays as it is.
@@ -361,11 +359,10 @@ namespace abut::shim
     const ObstacleWidth width = passed_between(points_, number, found.place);
     if (pair.data.may_be_apart && way > 2. * pair.data.obstacle->depth())
       points_.set().refuse(
-          pair,
-          too_long_a_step(pair.data, way,
-                          "ends inside of it, past the surface of the pair, "
-                          "by "
-                              + depth.str() + "."));
+          pair, too_long_a_step(
+                    pair.data, way,
+                    "ends inside of it, beyond the surface of the pair, by "
+                        + depth.str() + "."));
     else if (width.is_below_facets())
       points_.set().refuse(
           pair, coded(ABUT_FAILURE_UNSEEN,

@@ -298,10 +298,10 @@ namespace abut::shim
         // No search finds surfaces that are apart again, and rows belong to the
         // far side.
         if (way > 0.)
-          throw ContactError(too_long_a_step(
-              pair.data, way,
-              "passes through it: they are apart again at the end, and nothing "
-              "resists."));
+          throw ContactError(
+              too_long_a_step(pair.data, way,
+                              "passes through it: they are apart again at the "
+                              "end, without any contact force."));
       }
 
       /** The check for an obstacle that is a function of time. */

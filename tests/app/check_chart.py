@@ -69,8 +69,8 @@ file = chart(
     curve("lagrange", {"Method/Enforcement": "lagrange"})
     + curve("soft", {"Method/Enforcement": "penalty",
                      "Refinement/Level": "2 | 3"},
-            "set Axis = Method/Penalty\nset Values = 100 | 1e4")
-    + curve("hasty", {"Method/Maximum steps": "1",
+            "set Axis = Method/Penalty factor\nset Values = 100 | 1e4")
+    + curve("hasty", {"Method/Maximum linear systems": "1",
                       "Refinement/Nested iteration": "false"},
             "set Values = 4")
     + curve("saddle", {"Method/System": "saddle point",
@@ -83,10 +83,10 @@ names = [(row["curve"], row["axis"], row["value"]) for row in table]
 level = "Refinement/Level"
 p.expect(names == [("lagrange", level, "2"), ("lagrange", level, "3"),
                    ("lagrange", level, "4"),
-                   ("soft, 2", "Method/Penalty", "100"),
-                   ("soft, 2", "Method/Penalty", "1e4"),
-                   ("soft, 3", "Method/Penalty", "100"),
-                   ("soft, 3", "Method/Penalty", "1e4"),
+                   ("soft, 2", "Method/Penalty factor", "100"),
+                   ("soft, 2", "Method/Penalty factor", "1e4"),
+                   ("soft, 3", "Method/Penalty factor", "100"),
+                   ("soft, 3", "Method/Penalty factor", "1e4"),
                    ("hasty", level, "4"), ("saddle, lagrange", level, "2"),
                    ("saddle, penalty", level, "2"), ("long", level, "11")],
          f"curves {names}")

@@ -29,7 +29,7 @@ p.expect(not (p.folder / "output").exists(), "check must not write")
 result = p.call("run", scene)
 p.expect((p.folder / "output/point-mass/summary.json").exists(),
          "default output folder")
-for text in ("contact_force", "lambda", "What was modelled", "What it cost"):
+for text in ("contact_force", "lambda", "Model", "Cost"):
     p.expect(text in result.stdout, f"no '{text}' in the table")
 p.expect("\x1b" not in result.stdout and "\r" not in result.stdout,
          "control characters where there is no terminal")
@@ -56,7 +56,7 @@ p.expect(p.results()[0]["title"] == "long", "continued line")
 # A run that does not converge is told apart, and writes what it has.
 result = p.call("run", scene, "--output", "out", "--set",
                 "Method/Enforcement=augmented lagrangian", "--set",
-                "Method/Maximum outer steps=2", "--set",
+                "Method/Maximum outer iterations=2", "--set",
                 "Method/Gap tolerance=1e-12")
 p.expect(result.returncode == 3, f"exit code {result.returncode}, not 3")
 p.expect("warning" in result.stderr, "no word about the failure")

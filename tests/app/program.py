@@ -126,7 +126,7 @@ class Program:
         codes = codes if isinstance(codes, tuple) else (codes,)
         what = " ".join(map(str, result.args[1:]))
         self.expect(result.returncode in codes,
-                    f"{what}: exit code {result.returncode} is none of "
+                    f"{what}: exit code {result.returncode} is not one of "
                     f"{codes}:\n{result.stderr}")
         for word in words:
             self.expect(word in result.stderr,

@@ -29,7 +29,7 @@ def look(abut, folder, file, words):
         return False, True
     force = json.loads((pathlib.Path(folder) / "out/summary.json").read_text())[
         "contact_force"]
-    return force == 0., "constraints press where" in result.stderr
+    return force == 0., "constraints are active where" in result.stderr
 
 
 def count(abut, make, n, words, title=""):

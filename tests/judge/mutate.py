@@ -51,7 +51,7 @@ def cut(scene, level, part, source):
         scene.values[key] = str(value)
     if part < 1 and (source.random() > WHOLE or part * MORE < 1):
         shorten(scene, part)
-    if scene.get("Time/Scheme", "none") != "none":
+    if scene.get("Time stepping/Scheme", "quasi-static") != "quasi-static":
         scene.values["Output/Every"] = "1000000"
 
 
@@ -70,7 +70,7 @@ def cut_again(scene, base, steps):
         shorten(scene, MORE * steps / n_steps(scene))
     if scene.get("Refinement/Target error") != base.get(
             "Refinement/Target error"):
-        scene.values["Refinement/Most meshes"] = "4"
+        scene.values["Refinement/Maximum meshes"] = "4"
 
 
 def make_case(seed, levels, reference):
@@ -200,9 +200,12 @@ def read_list(path):
 
 def make_cases(seeds, options, abut):
     """Cases of seeds, one after the other."""
-    reference = read_reference(subprocess.run(
-        [abut, "parameters"], capture_output=True, text=True,
-        check=True).stdout)
+    reference = {
+        kind: read_reference(subprocess.run(
+            [abut, "parameters", "--scene", kind], capture_output=True,
+            text=True, check=True).stdout)
+        for kind in ("obstacle", "point mass", "chain of masses", "motion",
+                     "solid")}
     levels = find_levels(abut, options.levels, options.bases)
     return (make_case(seed, levels, reference) for seed in seeds)
 

@@ -16,7 +16,7 @@
  *     # exit: 0                 exit code of the run; 0 if left out
  *     # symptom: max_penetration > 0.1
  *     # symptom: contact_force < 0.5 * cure
- *     # vary: Method/Penalty = 1; 1e5; 1e10
+ *     # vary: Method/Penalty factor = 1; 1e5; 1e10
  *     # table: condition, linear_iterations
  *
  * and in the second file

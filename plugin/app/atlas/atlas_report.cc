@@ -187,7 +187,7 @@ expected, each in one line (`done` and `cure` may go on in more):
 | second | `# cure: ...` | for this page |
 | both | `# exit: 3` | exit code; 0 if left out |
 | both | `# symptom: contact_force < 0.5 * cure` | a number of `summary.json`, or `order(...)` or `growth(...)` of the last two rows of a column of `levels.csv`, or `starts(...)`, how often it leaves 0, or `mean(...)`, `ripple(...)` or `largest(...)` of a column or the ratio of two, within times or not, `ripple(pair_1_force_y,1,2)`; one of < <= = >= >; and a number, `true`, `false`, or the same number of the other run, `cure` |
-| first | `# vary: Method/Penalty = 1; 10` and `# table: condition, active` | run both files with these values, too, and table these numbers |
+| first | `# vary: Method/Penalty factor = 1; 10` and `# table: condition, active` | run both files with these values, too, and table these numbers |
 
 The run that fails must say the code, the cured one must not. A failure of a new kind is one
 more line of the list in `abut/failure.h`, and a place that notices it.

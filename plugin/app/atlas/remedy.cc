@@ -8,10 +8,10 @@ namespace abut::app
   std::string remedy(const abut_failure_entry &failure)
   {
     static const std::map<abut_failure, const char *> parameters = {
-        {ABUT_FAILURE_PENALTY,
-         "leave Method/Penalty = 0, or use augmented lagrangian or lagrange"},
+        {ABUT_FAILURE_PENALTY, "leave Method/Penalty factor = 0, or use "
+                               "augmented lagrangian or lagrange"},
         {ABUT_FAILURE_MULTIPLIERS_STALL,
-         "Method/Adaptive penalty = true, or a larger Method/Penalty"},
+         "Method/Adaptive penalty = true, or a larger Method/Penalty factor"},
         {ABUT_FAILURE_COLD_START, "Refinement/Nested iteration = true"},
         {ABUT_FAILURE_OVERLAP,
          "move the bodies apart, or say that it is interference (Pair/Initial "
@@ -21,7 +21,7 @@ namespace abut::app
         {ABUT_FAILURE_BUCKETS, "Search/Bucket size = 0, or adaptive buckets"},
         {ABUT_FAILURE_LINEAR_SOLVER, "Solver/Linear solver = direct or auto"},
         {ABUT_FAILURE_NITSCHE,
-         "leave Method/Penalty = 0, or Method/Nitsche theta = -1"},
+         "leave Method/Penalty factor = 0, or Method/Nitsche theta = -1"},
         {ABUT_FAILURE_NEGATIVE_WEIGHTS, "Method/Discretisation = mortar"},
         {ABUT_FAILURE_INTERIOR, "lagrange, or a looser Method/Gap tolerance"},
         {ABUT_FAILURE_STICK_SLIP,

@@ -16,7 +16,7 @@
 #include "run_maker.h"
 
 #include "app/input/output_folder.h"
-#include "app/scenes/common_parameters.h"
+#include "app/scenes/parameter_reference.h"
 
 #include <algorithm>
 #include <ostream>

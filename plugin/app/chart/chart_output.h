@@ -17,7 +17,7 @@
 
 namespace abut::app
 {
-  /** The names of a curve's axis, "Method/Penalty". */
+  /** The names of a curve's axis, "Method/Penalty factor". */
   std::string axis_name(const ChartCurve &curve);
 
   /** `runs.csv`: a row for each point, failed ones included. */

@@ -26,7 +26,7 @@ namespace abut::app
   abut run SCENE.prm      solve a scene
   abut check SCENE.prm    read a scene, check its data and stop before solving
   abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
-  abut chart FILE.prm     run a scene in many ways: error against time, work, ...
+  abut chart FILE.prm     run a series of a scene: error against time, work, ...
   abut atlas [FOLDER]     run the scenes of known failures and their cures
   abut parameters         print the reference of all parameters (Markdown)
   abut help COMMAND       explain a command
@@ -48,35 +48,35 @@ Solve the scene and write its results.
   --resume                    go on from the last checkpoint in that folder, of
                               the same scene, on any number of ranks
   --quiet                     print warnings and errors only
-  --explain                   say at the end what could be left out, at the
-                              target error if there is one
+  --explain                   print at the end which parts could be left out, at
+                              the target error if there is one
 
 Results: summary.json (the figures of the run), levels.csv (a row per mesh
-level or outer step), and what the section Output of the scene asks for. Data of
-the problem that change nothing are an error; settings of methods that the run
-does not use are listed at the end, and are an error if --set gave them.
+level or outer step), and the files of section Output. Data of the
+problem without effect are an error; settings of methods that the run does not
+use are listed at the end, and are an error in --set.
 
-Exit code: 0 solved, 2 wrong input, 3 no answer to rely on (what there is was
+Exit code: 0 solved, 2 wrong input, 3 no reliable result (the last one was
 written), 4 stopped by SIGTERM or SIGINT after a checkpoint was written (go on
 with --resume), 1 internal error.
 )"},
         {"check", R"(abut check SCENE.prm [--set "Section/Name=value"]...
 
-Read the scene, check everything that can be found out without solving, and
-print what would be solved, on the first mesh: unknowns, boundary ids with the
-number of their faces and where they are, pairs. Exit code 0 when all is well, 2 when not.
+Read the scene, check it without solving, and print the problem on the first
+mesh: unknowns, boundary ids with number and position of their faces, pairs.
+Exit code 0 without errors, else 2.
 )"},
         {"search", R"(abut search SCENE.prm [options]
 
 Run the contact search of a scene of kind 'search' by itself: print pairs, time
-per node, memory, a report on what was found, and the time of the search over
+per node, memory, a report on the pairs, and the time of the search over
 the size of its buckets for each algorithm. Options, results and exit codes are
 those of 'abut run'; the sweep is written as sweep.csv and, with
 --set Output/Pictures=true, as search.svg. It uses one rank.
 )"},
         {"chart", R"(abut chart FILE.prm [options]
 
-Run one scene with many methods, meshes and parameters, as FILE.prm asks
+Run one scene with the methods, meshes and parameters of FILE.prm
 (prm/charts has examples), each run in a process of its own on one thread, and
 chart errors against time, work and parameters.
 
@@ -86,7 +86,7 @@ chart errors against time, work and parameters.
   --quiet             print warnings and errors only
 
 Results: runs.csv (a row per run, failed ones included), cheapest.md (the
-cheapest way to reach each error), pictures (SVG), and the runs themselves in
+cheapest run for each error), pictures (SVG), and the runs themselves in
 the folder 'runs'. Started again, it makes only the runs that are missing; a
 changed setting, scene or program is a new run.
 
@@ -96,19 +96,22 @@ internal error.
         {"atlas", R"(abut atlas [FOLDER | SCENE.prm] [options]
 
 Run the failure atlas, pairs of scenes NAME.prm that fail and NAME.cure.prm
-that do not (default: prm/failures), or one pair of it. Compare what the runs
-show with what the comments in the files expect, and write a page about it.
+that do not (default: prm/failures), or one pair of it. Compare the results with
+the expectations in the comments of the files, and write a page about it.
 
   --output DIR    folder of the runs (default: output/atlas)
   --report FILE   the page (default: failures.md in that folder)
-  --quiet         print only what is not as expected
+  --quiet         print only unexpected results
 
 Exit code: 0 all as expected, 3 not all, 2 wrong input.
 )"},
-        {"parameters", R"(abut parameters
+        {"parameters", R"(abut parameters [options]
 
-Print all parameters of all scenes with their defaults, legal values and
-meaning, as Markdown.
+Print the parameters of scenes with defaults, types and ranges, units, levels
+and meaning, as Markdown.
+
+  --scene KIND   those of one kind of scenes, such as solid
+  --level LEVEL  basic, advanced (basic ones as well) or expert (all: default)
 )"},
         {"help", R"(abut help [COMMAND]
 
@@ -130,6 +133,20 @@ Print the commands, or explain one.
       if (i + 1 == words.size())
         throw InputError("", "option '" + words[i] + "' needs a value.");
       return words[++i];
+    }
+
+    void parse_reference_command(const std::vector<std::string> &words,
+                                 CommandLine &result)
+    {
+      for (std::size_t i = 1; i < words.size(); ++i)
+        if (words[i] == "--scene")
+          result.kind = value_of(words, i);
+        else if (words[i] == "--level")
+          result.level = value_of(words, i);
+        else
+          throw InputError(
+              "", "'parameters' takes no '" + words[i] + "'."
+                      + did_you_mean(words[i], {"--scene", "--level"}));
     }
 
     bool takes_scene(const Command command)
@@ -206,6 +223,8 @@ Print the commands, or explain one.
              || result.command == Command::chart
              || result.command == Command::atlas)
       parse_file_command(words, result);
+    else if (result.command == Command::parameters)
+      parse_reference_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
     else if (words.size() > 1)

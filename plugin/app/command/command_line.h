@@ -29,7 +29,8 @@ namespace abut::app
     std::vector<std::string> overrides; /**< of `--set` */
     std::vector<std::string> offers;    /**< of `--set-if-used` */
     std::string output;                 /**< empty: output/<name of the file> */
-    std::string report; /**< page of the atlas; empty: in its output */
+    std::string report;      /**< page of the atlas; empty: in its output */
+    std::string kind, level; /**< of `abut parameters`; empty: all */
     bool quiet = false;
     bool resume = false;  /**< go on from the latest checkpoint */
     bool explain = false; /**< say what could be left out */

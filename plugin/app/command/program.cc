@@ -10,6 +10,7 @@
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/loaded_scene.h"
+#include "app/scenes/parameter_reference.h"
 #include "command_line.h"
 
 #include <abut/version.h>
@@ -335,9 +336,13 @@ namespace abut::app
     case Command::atlas:
       return atlas_command(communicator, line);
     case Command::parameters:
-      write_reference(text);
-      write_chart_reference(text);
-      break;
+    {
+      const auto options = ReferenceOptions::parse(line.kind, line.level);
+      write_reference(text, options);
+      if (options.is_all())
+        write_chart_reference(text);
+    }
+    break;
     case Command::version:
       print_version(text);
       break;

@@ -334,7 +334,7 @@ namespace abut::app
         || body[0] != std::floor(body[0]))
       throw InputError(
           parameter,
-          "'" + text + "' does not begin with the number of a body, 1 to "
+          "'" + text + "' does not start with the number of a body, 1 to "
               + std::to_string(size()) + names_in_words() + ", and a colon.");
     return {static_cast<unsigned int>(body[0]) - 1, text.substr(colon + 1)};
   }

@@ -378,7 +378,7 @@ namespace abut::app
   void Report::print_model(std::ostream &out) const
   {
     if (!model_lines.empty())
-      out << "\n  What was modelled\n";
+      out << "\n  Model\n";
     std::size_t width = 0;
     for (const ModelLine &line : model_lines)
       width = std::max(width, line.what.size());
@@ -398,7 +398,7 @@ namespace abut::app
   {
     const double wall = wall_seconds();
     if (!sections.empty())
-      out << "\n  What it cost" << std::string(22, ' ')
+      out << "\n  Cost" << std::string(30, ' ')
           << "seconds   share       MiB     calls\n";
     for (const SectionTimes::Section &section : sections)
     {
@@ -417,11 +417,11 @@ namespace abut::app
     if (!root)
       return;
     std::ostringstream out;
-    out << "\n  What could be left out\n";
+    out << "\n  Parts that could be left out\n";
     for (const std::string &line : left_out)
       out << "  - " << line << "\n";
     if (left_out.empty())
-      out << "  nothing that this run can tell\n";
+      out << "  none found by this run\n";
     std::cout << out.str() << std::flush;
   }
 

@@ -88,7 +88,7 @@ namespace abut::app
     if (n == 0 && number_of(entry->data()))
       return " '" + name + "' is one number, not a list: write '" + name + "'.";
     if (n == 0 || component(*entry, 0) == nullptr)
-      return " '" + name + "' is there, but is no number.";
+      return " '" + name + "' is not a number.";
     return " '" + name + "' is a list of " + std::to_string(n) + ": write '"
            + name + "[0]'"
            + (n == 1 ? "." : " or up to '[" + std::to_string(n - 1) + "]'.");

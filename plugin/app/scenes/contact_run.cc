@@ -343,7 +343,7 @@ namespace abut::app
     {
     case NewtonReason::contact:
       return coded(contact.failure,
-                   "The contact iteration ended without an answer after "
+                   "The contact iteration ended without a solution after "
                        + std::to_string(state.present.steps)
                        + " steps: " + contact.explanation);
     case NewtonReason::linear_solve:
@@ -361,9 +361,9 @@ namespace abut::app
     const bool is_nonlinear =
         !model.problem().is_linear() || state.contact.points_move();
     return code == ABUT_FAILURE_CYCLE && is_nonlinear && !model.has_inertia()
-               ? " The equilibrium may be unstable from this load on (a limit "
-                 "point, as in snap-through): prescribe displacements instead "
-                 "of forces, or compute the motion (section Time)."
+               ? " The equilibrium may be unstable from this load on (limit "
+                 "point, as in snap-through). Prescribe displacements instead "
+                 "of forces, or use a Time stepping/Scheme with inertia."
                : "";
   }
 
@@ -419,12 +419,12 @@ namespace abut::app
       // Reports want rows; there are those that the step began with.
       model.set_contact(state.contact, state.load_steps.time());
       name_parameter(model, [&] { state.contact.detect(model.last_place()); });
-      failure = by_force
-                    ? coded(ABUT_FAILURE_NO_PARTNER,
-                            "Within a step forces drive an obstacle into a "
-                            "body past its surface: use a smaller Time/Step, "
-                            "or smaller forces.")
-                    : without_pair(error.message());
+      failure =
+          by_force ? coded(
+              ABUT_FAILURE_NO_PARTNER,
+              "Within a step forces drive an obstacle through the surface of a "
+              "body. Use a smaller Time stepping/Step size, or smaller forces.")
+                   : without_pair(error.message());
       return false;
     }
   }
@@ -560,8 +560,7 @@ namespace abut::app
         if (!can_pass_over())
           return false;
         report.progress("mesh " + std::to_string(state.mesh_number + 1)
-                        + " has no answer, which the next one only starts "
-                          "from: "
+                        + " has no solution; the next one starts without it: "
                         + failure.text);
         set_refine_flags();
         refine();
@@ -580,11 +579,10 @@ namespace abut::app
       set_refine_flags();
       if (is_too_fine())
       {
-        missed_target =
-            "Cells of level " + std::to_string(deepest_level<dim>)
-            + " cannot be refined any more: the error estimate does "
-              "not fall where they are. Look for data that jumps, or "
-              "ask for less.";
+        missed_target = "Cells of level " + std::to_string(deepest_level<dim>)
+                        + " cannot be refined further: the error estimate does "
+                          "not decrease there. Check for data that jump, or "
+                          "use a larger Refinement/Target error.";
         return true;
       }
       if (state.settings.all_levels)
@@ -736,9 +734,9 @@ namespace abut::app
                                 || code == ABUT_FAILURE_LINEAR_SOLVER;
       report.warn(failure + where + instability(code)
                   + (is_same && !model.has_inertia() && !is_of_matrix
-                         ? " Smaller load steps have ended in the same way: "
-                           "loads and motions whose formulas do not contain t "
-                           "are not made smaller by them."
+                         ? " Smaller load steps failed as well: loads and "
+                           "motions without t are applied at once. Multiply "
+                           "their formulas by t."
                          : ""));
     }
     told = failure.text;
@@ -814,9 +812,8 @@ namespace abut::app
                             || largest_motion > least_load;
     if (!has_digits)
       report.warn("Forces at nodes are " + short_number(largest_load, 3)
-                  + " at the most, and squares of such numbers are 0: nothing "
-                    "can be computed with them. Choose other units of loads "
-                    "and stiffness.");
+                  + " at most, and squares of such numbers are 0. Choose other "
+                    "units of loads and stiffness.");
     for (const BodyMotion &motion : examination.motions)
       report.progress(motion.text);
     for (const ContactFinding &finding : examination.findings)

@@ -49,6 +49,7 @@ namespace abut::app
     scene->count(file);
     declare_all(prm, scene_kind, *scene);
     declared = file.apply(prm);
+    old_words = file.old_words(declared);
   }
 
   void LoadedScene::find_law()
@@ -111,6 +112,11 @@ namespace abut::app
       report.set("dimension", dimension);
     for (const std::string &line : not_used)
       report.not_used(line);
+    std::string old;
+    for (const std::string &line : old_words)
+      old += (old.empty() ? "old names: " : "; ") + line;
+    if (!old.empty())
+      report.progress(old + ".");
   }
 
   RunIdentity LoadedScene::identity() const

@@ -51,7 +51,8 @@ namespace abut::app
     void find_law();
 
     const SceneKind &scene_kind;
-    std::vector<std::string> not_used; ///< values that this run does not use
+    std::vector<std::string> not_used;  ///< values that this run does not use
+    std::vector<std::string> old_words; ///< given, with those of today
     unsigned int dimension;
     dealii::ParameterHandler prm;
     std::vector<DeclaredParameter> declared; ///< with their values

@@ -59,11 +59,12 @@ namespace abut::app
   {
     conductivity = std::make_unique<Expression<dim>>(parameters.conductivity,
                                                      "Membrane/Conductivity");
-    load = std::make_unique<Expression<dim>>(parameters.load, "Membrane/Load");
+    load = std::make_unique<Expression<dim>>(parameters.load,
+                                             "Membrane/Body force");
     dirichlet = std::make_unique<BoundaryExpressions<dim>>(
-        parameters.dirichlet, "Membrane/Dirichlet");
+        parameters.dirichlet, "Membrane/Prescribed displacement");
     neumann = std::make_unique<BoundaryExpressions<dim>>(parameters.neumann,
-                                                         "Membrane/Neumann");
+                                                         "Membrane/Traction");
     if (!parameters.exact_displacement.empty())
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
@@ -103,13 +104,14 @@ namespace abut::app
     {
       for (const dealii::types::boundary_id id : ids)
         if (prescribed.count(id) > 0)
-          throw InputError(name, what + " on boundary " + std::to_string(id)
-                                     + " has no effect: Membrane/Dirichlet "
-                                       "prescribes the displacement there.");
+          throw InputError(
+              name, what + " on boundary " + std::to_string(id)
+                        + " has no effect: Membrane/Prescribed displacement "
+                          "prescribes the displacement there.");
     };
     // What both lists name themselves is a mistake; their * mean the ids that
     // are left.
-    refuse_prescribed(neumann->named(names), "Membrane/Neumann", "the flux");
+    refuse_prescribed(neumann->named(names), "Membrane/Traction", "the flux");
     refuse_prescribed(contact_ids, "Contact/Boundary ids", "contact");
     data.neumann = neumann->functions(names, prescribed);
     std::set<dealii::types::boundary_id> taken = contact_ids;
@@ -411,11 +413,12 @@ namespace abut::app
       std::vector<double> values = density->evaluate(points);
       for (const double value : values)
         if (!(value > 0.))
-          throw InputError("Membrane/Density",
-                           "what moves has mass everywhere; the density is "
-                               + short_number(value)
-                               + " somewhere. Set a positive one, or "
-                                 "Time/Scheme = none.");
+          throw InputError(
+              "Membrane/Density",
+              "dynamics needs mass everywhere; Membrane/Density is "
+                  + short_number(value)
+                  + " at some point. Set a positive density, or Time "
+                    "stepping/Scheme = quasi-static.");
       return values;
     };
   }
@@ -499,10 +502,9 @@ namespace abut::app
     depth = dealii::Utilities::MPI::max(depth, run.communicator);
     if (depth > 1e-10 * start.linfty_norm())
       throw InputError("Membrane/Initial displacement",
-                       "the membrane begins beyond an obstacle, by up to "
+                       "the membrane starts beyond an obstacle, by up to "
                            + short_number(depth)
-                           + ": it would be thrown out of there. Let it begin "
-                             "between the obstacles.");
+                           + ". Start between the obstacles.");
   }
 
   template <int dim> la::Vector MembraneModel<dim>::start()

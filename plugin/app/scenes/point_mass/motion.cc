@@ -245,7 +245,7 @@ namespace abut::app
   void Motion::require(const abut_status status) const
   {
     if (status != ABUT_SUCCESS)
-      throw std::range_error(abut_context_message(context.get()));
+      throw std::range_error(shim::core_message(context.get()));
   }
 
   std::string Motion::why_unsolved(const bool not_finite) const
@@ -263,18 +263,18 @@ namespace abut::app
                               + " and springs of " + short_number(stiffness, 3);
     // Squares of these leave the range of numbers, and none is an answer.
     constexpr double most = 1e100;
-    const std::string what = abut_context_message(context.get());
+    const std::string what = shim::core_message(context.get());
     if (not_finite && std::max(mass, stiffness) < most)
-      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+      return coded(ABUT_FAILURE_BLOW_UP, "a value of the motion is infinite");
     if (not_finite || what.find("singular") == std::string::npos)
       return coded(ABUT_FAILURE_NOT_FINITE,
-                   sizes + " lead out of the range of numbers (" + what
+                   sizes + " exceed the range of numbers (" + what
                        + "). Choose other units of lengths, masses and times.");
     return coded(ABUT_FAILURE_FLOATING_BODY,
-                 "inertia vanishes beside the stiffness: " + sizes
-                     + " have no digits in common in a step, and nothing else "
-                       "holds what is free. Use a larger density or mass, "
-                       "a shorter Time/Step, or less stiffness.");
+                 "inertia is below round-off of the stiffness: " + sizes
+                     + " differ too much, and rigid body modes are free. Use a "
+                       "larger density or mass, a smaller Time stepping/Step "
+                       "size, or less stiffness.");
   }
 
   std::string Motion::solve_model(const abut_dense_model &model,
@@ -492,7 +492,7 @@ namespace abut::app
     const abut_time_state now = state(dt);
     const abut_status status = abut_time_end(&now, residual.data());
     if (status == ABUT_NOT_FINITE)
-      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+      return coded(ABUT_FAILURE_BLOW_UP, "a value of the motion is infinite");
     require(status);
     return "";
   }

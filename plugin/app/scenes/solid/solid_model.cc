@@ -73,11 +73,10 @@ namespace abut::app
     const abut_time_scheme &scheme = parameters.time.scheme;
     if (motion && scheme.projects != 0 && scheme.contact_in_step != 0
         && pairs->has_friction())
-      throw InputError("Time/Scheme",
+      throw InputError("Time stepping/Scheme",
                        std::string(scheme.name)
-                           + " has two contact problems in a step, and a slip "
-                             "that belongs to none of them: use hht for "
-                             "friction.");
+                           + " has two contact problems in a step and no slip "
+                             "of the step: use hht for friction.");
     if (!parameters.exact_displacement.empty())
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
@@ -184,12 +183,12 @@ namespace abut::app
       if (std::none_of(ids.begin(), ids.end(),
                        [&](const boundary_id id)
                        { return touched.count(id) > 0; }))
-        throw InputError(bodies[parts[k].body].parameter("Support"),
-                         coded(ABUT_FAILURE_FLOATING_BODY,
-                               parts[k].name()
-                                   + " is held too little: its supports allow "
-                                   + freedom[k].description
-                                   + ", and it is in no contact pair."));
+        throw InputError(
+            bodies[parts[k].body].parameter("Prescribed displacement"),
+            coded(ABUT_FAILURE_FLOATING_BODY,
+                  parts[k].name() + " has too few supports: they allow "
+                      + freedom[k].description
+                      + ", and it is in no contact pair."));
       pairs->hold(ids, parts[k].n_parts > 1);
     }
     check_points(points, elasticity);
@@ -207,7 +206,7 @@ namespace abut::app
             << "), and refinement keeps them straight: " << effect
             << ". Name the circle, cylinder or sphere in "
             << bodies[bodies.body_of(bend.id)].mesh.section
-            << "/Curved sides; 'flat' there says that it is a corner.";
+            << "/Curved sides; 'flat' there marks a corner.";
     return message.str();
   }
 
@@ -229,7 +228,7 @@ namespace abut::app
     chords.reset();
     run.report.warn(
         coded(ABUT_FAILURE_COARSE_CURVE,
-              "A round side may be taken for a polygon: "
+              "A round side may be a polygon: "
                   + text_of_bend(bend, "finer meshes will converge to the "
                                        "contact of a polygon")));
   }
@@ -328,9 +327,9 @@ namespace abut::app
   template <int dim>
   std::string SolidModel<dim>::support_of(const Message &message) const
   {
-    return message.body < 0
-               ? ""
-               : bodies[parts.at(message.body).body].parameter("Support");
+    return message.body < 0 ? ""
+                            : bodies[parts.at(message.body).body].parameter(
+                                "Prescribed displacement");
   }
 
   template <int dim> void SolidModel<dim>::look_at_rows(const bool is_last)
@@ -367,8 +366,8 @@ namespace abut::app
     if (motion && has_large_strain()
         && !std::isfinite(elasticity.stored_energy(run.u)))
       return coded(ABUT_FAILURE_NOT_FINITE,
-                   "At the end of this time step a cell is turned inside out. "
-                   "Make Time/Step shorter.");
+                   "At the end of this time step a cell is inverted. Use a "
+                   "smaller Time stepping/Step size.");
     // A step that cannot be shortened is told of at the end.
     if (motion && parameters.load_steps.cut_back)
       return leaves_points();
@@ -383,9 +382,10 @@ namespace abut::app
             ABUT_FAILURE_FLOATING_BODY,
             "Nothing holds " + parts[k].name() + ": its supports allow "
                 + freedom[k].description
-                + ", and it touches nothing. Press it against something, or "
+                + ", and it has no contact. Press it against another body, or "
                   "give it a support ("
-                + bodies[parts[k].body].parameter("Support") + ").");
+                + bodies[parts[k].body].parameter("Prescribed displacement")
+                + ").");
     return "";
   }
 

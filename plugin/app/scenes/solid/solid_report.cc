@@ -180,10 +180,10 @@ namespace abut::app
       const bool may_come = pair.holds_body && pair.obstacle;
       for (const Message &warning : check.warnings)
         if (may_come && warning.failure == ABUT_FAILURE_NO_PARTNER)
-          report.progress(check.name
-                          + ": not within reach of the obstacle; a run "
-                            "moves the body, which has no supports that way, "
-                            "to where forces press it.");
+          report.progress(
+              check.name
+              + ": not within reach of the obstacle; a run moves the body, "
+                "which has no support in that direction, into contact.");
         else
           report.warn(about(check.name, warning));
     }
@@ -205,10 +205,9 @@ namespace abut::app
             "Pair " + std::to_string(number) + " hands "
                 + short_number(100. * error, 2)
                 + " % of a uniform pressure to wrong nodes of its primary "
-                  "surface, because the meshes do not match: the contact "
-                  "pressure has an error of this size, which refinement does "
-                  "not lower. Use Method/Discretisation = mortar or dual "
-                  "mortar."));
+                  "surface, because the meshes do not match. The contact "
+                  "pressure has an error of this size on all meshes. Use "
+                  "Method/Discretisation = mortar or dual mortar."));
     }
   }
 
@@ -249,11 +248,11 @@ namespace abut::app
             "Pair " + std::to_string(number) + ": in contact, "
                 + model.text_of_bend(
                     bend,
-                    "the pressure there may be off by "
+                    "the pressure there may have an error of "
                         + (part < 0.5 ? "some " + short_number(100. * part, 2)
                                             + " % of its largest value"
                                       : std::string("half of it and more"))
-                        + ", the more the finer the mesh")));
+                        + ", more on finer meshes")));
     }
   }
 
@@ -535,16 +534,14 @@ namespace abut::app
                            elasticity.ghosted(u), model.data.materials);
     examined(report, "volumetric_locking", locked, visible_locking, no_limit);
     if (locked > visible_locking)
-      report.warn(coded(
-          ABUT_FAILURE_LOCKING,
-          short_number(100. * locked, 2)
-              + " % of the strain energy is volume change within cells, which "
-                "linear elements cannot avoid: with Poisson ratio "
-              + short_number(poisson_ratio, 6)
-              + " they lock, displacements are too small and contact forces "
-                "too large. Set Body N/Element = mean dilatation, or "
-                "Solid/Degree "
-                "= 2."));
+      report.warn(coded(ABUT_FAILURE_LOCKING,
+                        short_number(100. * locked, 2)
+                            + " % of the strain energy is spurious volume "
+                              "change of linear elements: with Poisson ratio "
+                            + short_number(poisson_ratio, 6)
+                            + " they lock; displacements are too small and "
+                              "contact forces too large. Set Body N/Element = "
+                              "mean dilatation, or Solid/Degree = 2."));
     return locked;
   }
 
@@ -563,12 +560,12 @@ namespace abut::app
     report.warn(coded(
         ABUT_FAILURE_LOCKING,
         short_number(100. * locked, 2)
-            + " % of the strain energy is an error, by an estimate that is "
-              "low on coarse meshes: linear "
+            + " % of the strain energy is an error (estimate, low on coarse "
+              "meshes): linear "
             + cells
-            + " have one strain in each cell and are too stiff. Under loads "
-              "displacements are too small by as much, prescribed ones take "
-              "too large forces. Set Solid/Degree = 2."));
+            + " have constant strain in each cell and are too stiff. "
+              "Displacements under loads are too small, or forces at "
+              "prescribed displacements too large. Set Solid/Degree = 2."));
     return locked;
   }
 
@@ -595,10 +592,9 @@ namespace abut::app
             ? "facets of bodies for each other: "
                   + std::to_string(run.n_searches) + " times, of which "
                   + std::to_string(run.contact.results().effort().points.kept)
-                  + " had moved too little for other points, and "
-                    "a check after each solve"
-            : "gaps to obstacles are formulas: no facet is "
-              "looked for");
+                  + " moved too little for new pairs, and a check after each "
+                    "solve"
+            : "gaps to obstacles are formulas: there is no search");
     if (method.law_is_automatic && !pairs.empty())
       report.model("automatic law", true, method.options.law->name);
     report.model("friction", pairs.has_friction(),
@@ -616,11 +612,11 @@ namespace abut::app
                  model.has_inertia()
                      ? std::string("scheme ") + parameters.time.scheme.name
                      : "each load step is in equilibrium");
-    report.model("obstacles moved by forces", model.places_obstacles(),
+    report.model("obstacles driven by forces", model.places_obstacles(),
                  model.places_obstacles()
                      ? std::to_string(model.driven.n_places())
-                           + " places were tried, each a contact problem"
-                     : "obstacles are where their motions say");
+                           + " positions were tried, each a contact problem"
+                     : "obstacles follow their Motion");
     report.model("large strain", model.has_large_strain(),
                  model.has_large_strain()
                      ? "strains and rotations of any size"
@@ -644,8 +640,8 @@ namespace abut::app
     if (run.load_steps.n_accepted() > 1 && !pairs.has_friction()
         && !model.has_inertia())
       report.leave_out(
-          "load steps: without friction the last answer does not depend on "
-          "those before it; if only it is wanted, Load steps/Steps = 1.");
+          "load steps: without friction the last result does not depend on the "
+          "steps before; Time stepping/Number of steps = 1 gives the same.");
     if (pairs.empty() || run.results.empty())
       return;
     for (const PairResult<dim> &pair : contact.results().pairs())
@@ -665,11 +661,10 @@ namespace abut::app
         part = std::max(part, state.friction_force / state.force);
     if (part < visible_friction)
       report.leave_out(
-          "friction, unless it holds a body: it never carried more "
-          "than "
+          "friction, unless it supports a body: it never carried more than "
           + short_number(100. * part, 2)
           + " % of the normal force, and it makes linear systems "
-            "unsymmetric.");
+            "nonsymmetric.");
   }
 
   template class SolidReport<2>;
