@@ -2,10 +2,16 @@
 #include "common_parameters.h"
 
 #include "app/input/effect_rules.h"
+#include "app/input/expression.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/parameter_entry.h>
 #include <abut/dealii/text_pattern.h>
+#include <abut/dealii/pair_measures.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <ostream>
 
 namespace abut::app
 {
@@ -13,6 +19,8 @@ namespace abut::app
   {
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
+
+    const char *const expected_name = "Expected";
 
     std::vector<std::string> kind_names()
     {
@@ -42,6 +50,28 @@ namespace abut::app
     }
 
   } // namespace
+
+  std::vector<ExpectedFigure> parse_expected(const std::string &text)
+  {
+    const std::string path = std::string("Output/") + expected_name;
+    std::vector<ExpectedFigure> figures;
+    for (const std::string &part : split_list(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      const std::size_t colon = part.find(':');
+      if (colon == std::string::npos || colon == 0)
+        throw InputError(path, "'" + part
+                                   + "' is not a figure, a colon, and its "
+                                     "value.");
+      const Expression<2> formula(part.substr(colon + 1), path);
+      if (!formula.is_constant())
+        throw InputError(path, "'" + part + "' depends on x, y or t.");
+      figures.push_back({dealii::Utilities::trim(part.substr(0, colon)),
+                         formula.evaluate({dealii::Point<2>()})[0]});
+    }
+    return figures;
+  }
 
   const SceneKind &scene_kind(const ParameterFile &file)
   {
@@ -94,6 +124,13 @@ namespace abut::app
                        parameter::basic(),
                        "Whether a page about the run, report.html, is written "
                        "(`abut report`), also for a scene with an error.");
+    parameter::declare(
+        prm, expected_name, "", TextPattern("figures and their values"),
+        parameter::advanced("", "pair_1_pressure: sqrt(2/pi); "
+                                "pair_1_force[1]: 5"),
+        "Figures of summary.json whose values are known beforehand: numbers, "
+        "or formulas with pi. A component of a vector has its number, from 0. "
+        "The run prints them with the relative errors of its results.");
     prm.leave_subsection();
   }
 

@@ -53,6 +53,7 @@ namespace abut::app
     const SceneKind &scene_kind;
     std::vector<std::string> not_used;  ///< values that this run does not use
     std::vector<std::string> old_words; ///< given, with those of today
+    std::vector<ExpectedFigure> expected;
     unsigned int dimension;
     dealii::ParameterHandler prm;
     std::vector<DeclaredParameter> declared; ///< with their values
