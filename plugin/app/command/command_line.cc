@@ -2,6 +2,7 @@
 #include "command_line.h"
 
 #include "app/input/input_error.h"
+#include "failure_list.h"
 
 #include <abut/dealii/nearest_word.h>
 
@@ -15,11 +16,12 @@ namespace abut::app
 
     const std::map<std::string, Command> commands = {
         {"run", Command::run},       {"check", Command::check},
-        {"search", Command::search}, {"chart", Command::chart},
-        {"atlas", Command::atlas},   {"draw", Command::tool},
+        {"search", Command::search}, {"chart", Command::tool},
+        {"atlas", Command::tool},    {"draw", Command::tool},
         {"report", Command::tool},   {"parameters", Command::parameters},
-        {"help", Command::help},     {"--help", Command::help},
-        {"-h", Command::help},       {"--version", Command::version}};
+        {"serve", Command::serve},   {"help", Command::help},
+        {"--help", Command::help},   {"-h", Command::help},
+        {"--version", Command::version}};
 
     const char *const general_help =
         R"(abut - contact mechanics with deal.II
@@ -32,6 +34,7 @@ namespace abut::app
   abut chart FILE.prm     run a scene in many ways: error against time, work, ...
   abut atlas [FOLDER]     run the scenes of known failures and their cures
   abut parameters         print the reference of all parameters (Markdown)
+  abut serve              run the commands that come on standard input
   abut help COMMAND       explain a command
   abut --version          print the versions of abut, deal.II and Trilinos
 
@@ -63,11 +66,15 @@ Exit code: 0 solved, 2 wrong input, 3 no answer to rely on (what there is was
 written), 4 stopped by SIGTERM or SIGINT after a checkpoint was written (go on
 with --resume), 1 internal error.
 )"},
-        {"check", R"(abut check SCENE.prm [--set "Section/Name=value"]...
+        {"check", R"(abut check SCENE.prm [options]
 
 Read the scene, check everything that can be found out without solving, and
 print what would be solved, on the first mesh: unknowns, boundary ids with the
 number of their faces and where they are, pairs. Exit code 0 when all is well, 2 when not.
+
+  --set "Section/Name=value"  override a parameter of the file; may be repeated
+  --values                    print all parameters with their values (JSON), and
+                              check no more than these
 )"},
         {"search", R"(abut search SCENE.prm [options]
 
@@ -86,10 +93,11 @@ chart errors against time, work and parameters.
   --set "Name=value"  override a parameter of FILE.prm; may be repeated
   --output DIR        folder of the results (default: output/<name of FILE>)
   --plan              print the points and stop before the first run
+  --parameters        print the parameters of chart files and stop
   --quiet             print warnings and errors only
 
 Results: runs.csv (a row per run, failed ones included), cheapest.md (the
-cheapest way to reach each error), pictures (SVG), and the runs themselves in
+cheapest way to reach each error), pictures (SVG, PNG), and the runs themselves in
 the folder 'runs'. Started again, it makes only the runs that are missing; a
 changed setting, scene or program is a new run.
 
@@ -103,7 +111,9 @@ that do not (default: prm/failures), or one pair of it. Compare what the runs
 show with what the comments in the files expect, and write a page about it.
 
   --output DIR    folder of the runs (default: output/atlas)
-  --report FILE   the page (default: failures.md in that folder)
+  --report FILE   the page (default: failures.md in that folder); its pictures
+                  are beside it, in pictures/failures
+  --no-pictures   do not draw the runs
   --quiet         print only what is not as expected
 
 Exit code: 0 all as expected, 3 not all, 2 wrong input.
@@ -132,9 +142,15 @@ Write a page (HTML) about a run from the files in its output folder.
 Print all parameters of all scenes with their defaults, legal values and
 meaning, as Markdown.
 )"},
-        {"help", R"(abut help [COMMAND]
+        {"serve", R"(abut serve
 
-Print the commands, or explain one.
+Run the commands that come on standard input, one after the other, each in a
+process of its own: the program is loaded once. For programs that make many
+runs, such as 'abut chart'; serve.cc in the sources describes a request.
+)"},
+        {"help", R"(abut help [COMMAND | failures]
+
+Print the commands, explain one, or list the known failures by code.
 )"}};
 
     std::vector<std::string> names(const std::map<std::string, Command> &map)
@@ -162,20 +178,18 @@ Print the commands, or explain one.
 
     std::vector<std::string> options_of(const Command command)
     {
-      if (command == Command::atlas)
-        return {"--output", "--report", "--quiet"};
-      if (takes_scene(command))
-        return {"--set", "--set-if-used", "--output", "--quiet"};
-      return {"--set", "--output", "--quiet"};
+      if (command == Command::check)
+        return {"--set", "--set-if-used", "--values", "--quiet"};
+      return {"--set", "--set-if-used", "--output", "--quiet"};
     }
 
     void parse_file_command(const std::vector<std::string> &words,
                             CommandLine &result)
     {
       for (std::size_t i = 1; i < words.size(); ++i)
-        if (words[i] == "--set" && result.command != Command::atlas)
+        if (words[i] == "--set")
           result.overrides.push_back(value_of(words, i));
-        else if (words[i] == "--set-if-used" && takes_scene(result.command))
+        else if (words[i] == "--set-if-used")
           result.offers.push_back(value_of(words, i));
         else if (words[i] == "--output")
           result.output = value_of(words, i);
@@ -185,10 +199,8 @@ Print the commands, or explain one.
           result.resume = true;
         else if (words[i] == "--explain" && result.command == Command::run)
           result.explain = true;
-        else if (words[i] == "--plan" && result.command == Command::chart)
-          result.plan = true;
-        else if (words[i] == "--report" && result.command == Command::atlas)
-          result.report = value_of(words, i);
+        else if (words[i] == "--values" && result.command == Command::check)
+          result.values = true;
         else if (words[i].size() > 1 && words[i][0] == '-')
           throw InputError(
               "", "'" + words[0] + "' has no option '" + words[i] + "'."
@@ -198,8 +210,6 @@ Print the commands, or explain one.
                                    + words[i] + "' were given.");
         else
           result.file = words[i];
-      if (result.file.empty() && result.command == Command::atlas)
-        result.file = "prm/failures";
       if (result.file.empty())
         throw InputError("", "'" + words[0] + "' needs a scene file: abut "
                                  + words[0] + " FILE.prm");
@@ -223,10 +233,7 @@ Print the commands, or explain one.
       result.command = Command::help;
       result.topic = words[0];
     }
-    else if (result.command == Command::run || result.command == Command::check
-             || result.command == Command::search
-             || result.command == Command::chart
-             || result.command == Command::atlas)
+    else if (takes_scene(result.command))
       parse_file_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
@@ -239,6 +246,8 @@ Print the commands, or explain one.
   {
     if (topic.empty())
       return general_help;
+    if (topic == "failures")
+      return failure_list();
     const auto found = topics.find(topic);
     if (found == topics.end())
     {

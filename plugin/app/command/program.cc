@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "program.h"
 
-#include "app/atlas/atlas.h"
-#include "app/chart/chart.h"
 #include "app/input/collective.h"
 #include "app/input/output_folder.h"
 #include "app/report/status_file.h"
+#include "app/restart/disk.h"
 #include "app/restart/restart.h"
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
@@ -184,7 +183,8 @@ namespace abut::app
                  {
                    status.begin();
                    if (is_root(communicator))
-                     loaded.write_parameters(options.output_folder);
+                     write_file(options.output_folder / "parameters.json",
+                                loaded.parameters_json());
                  });
       Report report(communicator, line.quiet);
       loaded.describe(report);
@@ -270,6 +270,8 @@ namespace abut::app
                    {
                      file.emplace(line.file, line.overrides, line.offers);
                      loaded.emplace(*file);
+                     if (line.values && is_root(communicator))
+                       std::cout << loaded->parameters_json() << std::flush;
                      if (line.command == Command::search)
                        require_search(*loaded);
                      loaded->parse();
@@ -283,6 +285,8 @@ namespace abut::app
       }
       try
       {
+        if (line.values)
+          return ExitCode::success;
         const RunOptions options = run_options(communicator, line, *loaded);
         return line.command == Command::check
                    ? check_scene(*loaded, options, line)
@@ -303,26 +307,6 @@ namespace abut::app
                     + line.words.at(0)
                     + "' runs on one rank: start it without mpirun.");
     }
-
-    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
-    {
-      require_one_rank(communicator, line);
-      Report report(communicator, line.quiet);
-      return make_chart(line.file, line.overrides, output_folder(line),
-                        line.plan, report);
-    }
-
-    ExitCode atlas_command(MPI_Comm communicator, const CommandLine &line)
-    {
-      require_one_rank(communicator, line);
-      AtlasOptions options;
-      options.path = line.file;
-      options.output = line.output.empty() ? "output/atlas" : line.output;
-      options.report = line.report.empty() ? options.output / "failures.md"
-                                           : std::filesystem::path(line.report);
-      options.quiet = line.quiet;
-      return run_atlas(options);
-    }
   } // namespace
 
   ExitCode run_program(MPI_Comm communicator,
@@ -336,16 +320,13 @@ namespace abut::app
     case Command::check:
     case Command::search:
       return scene_command(communicator, line);
-    case Command::chart:
-      return chart_command(communicator, line);
-    case Command::atlas:
-      return atlas_command(communicator, line);
     case Command::tool:
       require_one_rank(communicator, line);
       return run_tool(line.words);
     case Command::parameters:
       write_reference(text);
-      write_chart_reference(text);
+      break;
+    case Command::serve: // by main(), before MPI begins
       break;
     case Command::version:
       print_version(text);

@@ -115,7 +115,7 @@ namespace abut::app
       report.not_used(line);
   }
 
-  void LoadedScene::write_parameters(const std::filesystem::path &folder) const
+  std::string LoadedScene::parameters_json() const
   {
     std::ostringstream out;
     JsonWriter json(out);
@@ -137,7 +137,7 @@ namespace abut::app
     }
     json.end();
     json.end();
-    write_file(folder / "parameters.json", out.str());
+    return out.str();
   }
 
   RunIdentity LoadedScene::identity() const

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of the failure atlas: the failing run and the cured one side by
+side."""
+import io
+
+from matplotlib import font_manager
+from PIL import Image, ImageDraw, ImageFont
+
+from . import draw, style
+from .errors import InputError
+from .run_folder import RunFolder
+
+DPI = 110     # the page has a picture for each entry
+COLOURS = 64  # of such a picture
+
+
+def first_picture(folder):
+    """The first picture of a run as an image, None where there is nothing to
+    draw."""
+    try:
+        _, figure = next(draw.pictures(RunFolder(folder), style.COLUMN))
+    except (InputError, StopIteration):
+        return None
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=DPI)
+    style.pyplot.close(figure)
+    return Image.open(data).convert("RGB")
+
+
+def draw_pair(folders, titles, path):
+    """Draw two runs into a PNG; False where one has nothing to draw."""
+    images = [first_picture(folder) for folder in folders]
+    if None in images:
+        return False
+    font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), DPI // 8)
+    strip = DPI // 5
+    pair = Image.new("RGB", (sum(image.width for image in images),
+                             strip + max(image.height for image in images)),
+                     "white")
+    left = 0
+    for letter, title, image in zip("ab", titles, images):
+        ImageDraw.Draw(pair).text((left + 4, 2), f"({letter}) {title}", "black",
+                                  font)
+        pair.paste(image, (left, strip))
+        left += image.width
+    pair.quantize(COLOURS).save(path, optimize=True)
+    return True
