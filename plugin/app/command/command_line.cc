@@ -15,12 +15,12 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"run", Command::run},       {"check", Command::check},
-        {"search", Command::search}, {"chart", Command::tool},
-        {"atlas", Command::tool},    {"draw", Command::tool},
-        {"report", Command::tool},   {"parameters", Command::parameters},
-        {"serve", Command::serve},   {"help", Command::help},
-        {"--help", Command::help},   {"-h", Command::help},
+        {"run", Command::run},          {"check", Command::check},
+        {"search", Command::search},    {"chart", Command::tool},
+        {"atlas", Command::tool},       {"draw", Command::tool},
+        {"report", Command::tool},      {"parameters", Command::parameters},
+        {"serve", Command::serve},      {"help", Command::help},
+        {"--help", Command::help},      {"-h", Command::help},
         {"--version", Command::version}};
 
     const char *const general_help =

@@ -23,8 +23,8 @@ namespace abut::app
     };
 
     Command command = Command::help;
-    std::string file;  /**< of the scene */
-    std::string topic; /**< of `abut help TOPIC` */
+    std::string file;                   /**< of the scene */
+    std::string topic;                  /**< of `abut help TOPIC` */
     std::vector<std::string> words;     /**< all of them */
     std::vector<std::string> overrides; /**< of `--set` */
     std::vector<std::string> offers;    /**< of `--set-if-used` */

@@ -17,9 +17,9 @@ namespace abut::app
           {ABUT_FAILURE_MULTIPLIERS_STALL,
            "Method/Adaptive penalty = true, or a larger Method/Penalty"},
           {ABUT_FAILURE_COLD_START, "Refinement/Nested iteration = true"},
-          {ABUT_FAILURE_OVERLAP,
-           "move the bodies apart, or say that it is interference (Pair/Initial "
-           "gap)"},
+          {ABUT_FAILURE_OVERLAP, "move the bodies apart, or say that it is "
+                                 "interference (Pair/Initial "
+                                 "gap)"},
           {ABUT_FAILURE_LOCKING,
            "Body N/Element = mean dilatation, or Solid/Degree = 2"},
           {ABUT_FAILURE_BUCKETS, "Search/Bucket size = 0, or adaptive buckets"},

@@ -302,10 +302,9 @@ namespace abut::app
     void require_one_rank(MPI_Comm communicator, const CommandLine &line)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
-        throw InputError(
-            "", std::string("'abut ")
-                    + line.words.at(0)
-                    + "' runs on one rank: start it without mpirun.");
+        throw InputError("",
+                         std::string("'abut ") + line.words.at(0)
+                             + "' runs on one rank: start it without mpirun.");
     }
   } // namespace
 

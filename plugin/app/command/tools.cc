@@ -30,7 +30,8 @@ namespace abut::app
           return tools;
         if (folder == folder.root_path())
           throw InputError("", "the folder share/abut/tools was not found "
-                               "beside " + program.string()
+                               "beside "
+                                   + program.string()
                                    + ": install the program again.");
       }
     }
@@ -61,14 +62,14 @@ namespace abut::app
                  && result.code == lacks_packages))
           return result;
       }
-      throw InputError(
-          "", "'abut " + words.at(0) + "' needs Python 3 with NumPy and "
-              "Matplotlib; "
-                  + (candidates.size() == 1
-                         ? "ABUT_PYTHON = '" + candidates[0] + "'"
-                         : std::string("python3"))
-                  + " does not have them. On Debian: apt install "
-                    "python3-numpy python3-matplotlib");
+      throw InputError("", "'abut " + words.at(0)
+                               + "' needs Python 3 with NumPy and "
+                                 "Matplotlib; "
+                               + (candidates.size() == 1
+                                      ? "ABUT_PYTHON = '" + candidates[0] + "'"
+                                      : std::string("python3"))
+                               + " does not have them. On Debian: apt install "
+                                 "python3-numpy python3-matplotlib");
     }
 
     std::string without(std::string text, const std::string &beginning)
@@ -99,8 +100,7 @@ namespace abut::app
     };
     try
     {
-      const bool well =
-          start({"draw", folder.string(), "--quiet"}, log).well();
+      const bool well = start({"draw", folder.string(), "--quiet"}, log).well();
       std::istringstream said(read_from_disk(log));
       std::string line;
       while (std::getline(said, line))

@@ -271,22 +271,6 @@ namespace abut::app
     return origin(path).compare(0, set_option.size(), set_option) == 0;
   }
 
-  std::vector<Assignment>
-  ParameterFile::extract(const std::function<bool(const std::string &)> &wanted)
-  {
-    const auto rest = std::stable_partition(
-        assignments.begin(), assignments.end(),
-        [&](const Assignment &assignment) { return !wanted(assignment.path); });
-    const std::vector<Assignment> result(rest, assignments.end());
-    assignments.erase(rest, assignments.end());
-    return result;
-  }
-
-  void ParameterFile::append(const Assignment &assignment)
-  {
-    assignments.push_back(assignment);
-  }
-
   std::map<std::string, std::string> ParameterFile::values() const
   {
     std::map<std::string, std::string> result;

@@ -163,14 +163,6 @@ namespace abut::app
     return scene_kind.name;
   }
 
-  bool LoadedScene::declares(const std::string &path) const
-  {
-    for (const DeclaredParameter &parameter : declared)
-      if (parameter.path == path)
-        return true;
-    return false;
-  }
-
   std::string LoadedScene::get(const std::string &section,
                                const std::string &name)
   {

@@ -38,9 +38,6 @@ namespace abut::app
     /** Name of the kind of the scene. */
     const char *kind() const;
 
-    /** Whether the scene has a parameter of this name. */
-    bool declares(const std::string &path) const;
-
     /** Value of a parameter of section @p section. */
     std::string get(const std::string &section, const std::string &name);
 
