@@ -50,7 +50,7 @@ def finished(folder=OUT):
     """Finished runs with the times at which they were written. The folder of
     one that is going on is renamed between listing and looking."""
     return {path.parent.name: path.stat().st_mtime_ns
-            for path in folder.glob("runs/*/run.json")
+            for path in folder.glob("runs/*/record.json")
             if path.parent.suffix != ".part"}
 
 
@@ -154,7 +154,7 @@ p.expect(len(before) == 10, f"{len(before)} runs")
 run(file)
 p.expect(finished() == before, "finished runs were made again")
 victim = sorted(before)[0]
-half = OUT / "runs" / victim / "run.json"
+half = OUT / "runs" / victim / "record.json"
 half.write_text(half.read_text()[:40])
 run(file)
 after = finished()

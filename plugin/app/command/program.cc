@@ -137,8 +137,8 @@ namespace abut::app
     void record_error(StatusFile &status, const std::exception &error,
                       const bool has_results)
     {
-      if (dynamic_cast<const InputError *>(&error) != nullptr)
-        status.end(ExitCode::bad_input, error.what(), has_results);
+      if (const auto *input = dynamic_cast<const InputError *>(&error))
+        status.end(ExitCode::bad_input, input->message(), has_results);
       else if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
         status.end(ExitCode::bad_input, no_memory, has_results);
       else

@@ -244,7 +244,7 @@ namespace abut::app
     if (error.parameter.empty())
       return error;
     return {"", origin(error.parameter) + ": " + error.parameter + ": "
-                    + error.what()};
+                    + error.message()};
   }
 
   std::string ParameterFile::get(const std::string &path,

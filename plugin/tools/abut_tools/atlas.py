@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """`abut atlas`: scenes of known failures and their cures, run and compared with
 what they are expected to show."""
+import json
 import pathlib
 import re
 import shutil
@@ -9,14 +10,12 @@ from dataclasses import dataclass, field
 from .atlas_entry import AtlasEntry, read_atlas
 from .atlas_report import atlas_page
 from .errors import InputError, Words
-from .run_figures import RunFigures
+from .run_figures import RunFigures, read_json
 from .run_store import make_output_folder
 from .serial_program import SerialProgram, this_program
 
 TIME_LIMIT = 300  # processor seconds after which a run counts as hanging
 MARK = "abut: "
-# An error ends a run before it has a summary.
-CODE_OF_ERROR = re.compile(r"error: .*?(ABUT-F\d\d): ")
 
 
 @dataclass
@@ -39,23 +38,32 @@ class AtlasResult:
     picture: str = ""  # of both runs, seen from the page
 
 
-def run_scene(program, entry, scene, folder, value=None):
+def has_fields(program, scene):
+    """Whether a scene can write fields, of which pictures are drawn."""
+    values = program.ask("check", scene.path, "--values").stdout
+    return "Output/Fields" in json.loads(values or "{}").get("parameters", {})
+
+
+def run_scene(program, entry, scene, folder, value=None, fields=False):
     # What an earlier run has left must not be taken for this one's.
     shutil.rmtree(folder, ignore_errors=True)
     make_output_folder(folder)
     log = folder / "log.txt"
     words = ["run", scene.path, "--quiet", "--output", folder, "--set",
-             "Output/Pictures=false"]
+             "Output/Pictures=false", "--set", "Output/Report=false"]
+    if fields and has_fields(program, scene):
+        words += ["--set-if-used", "Output/Fields=true"]
     if value is not None:
         words += ["--set", f"{entry.varied}={value}"]
     ending = program.run(words, log, TIME_LIMIT)
     messages = [line[len(MARK):] for line in log.read_text().splitlines()
                 if line.startswith(MARK)]
     figures = RunFigures(folder)
-    errors = filter(None, map(CODE_OF_ERROR.match, messages))
+    # The failure of an error, which ends a run before it has a summary.
+    of_error = read_json(folder / "run.json").get("code")
     return AtlasRun(ending.code, figures, messages,
                     {*figures.summary.get("codes", ()),
-                     *(error.group(1) for error in errors)})
+                     *filter(None, [of_error])})
 
 
 def check_run(scene, run, other):
@@ -81,10 +89,12 @@ def check_codes(entry, failing, cure):
         yield f"the cure still says {entry.failure}"
 
 
-def run_entry(program, entry, folder):
-    """Run both files of an entry as processes of their own."""
-    failing = run_scene(program, entry, entry.failing, folder / "failing")
-    cure = run_scene(program, entry, entry.cure, folder / "cure")
+def run_entry(program, entry, folder, fields):
+    """Run both files of an entry as processes of their own.
+    fields: write fields, too"""
+    failing, cure = (
+        run_scene(program, entry, scene, folder / name, fields=fields)
+        for scene, name in ((entry.failing, "failing"), (entry.cure, "cure")))
     varied = [[run_scene(program, entry, scene, folder / f"{name}-varied",
                          value).figures
                for scene, name in ((entry.failing, "failing"),
@@ -131,7 +141,7 @@ def main(words):
     results = []
     for entry in read_atlas(arguments.path, failures):
         runs = arguments.output / entry.name
-        result = run_entry(program, entry, runs)
+        result = run_entry(program, entry, runs, not arguments.no_pictures)
         results.append(result)
         if not arguments.no_pictures:
             draw_entry(result, runs, report)

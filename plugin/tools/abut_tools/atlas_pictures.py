@@ -15,10 +15,12 @@ COLOURS = 64  # of such a picture
 
 
 def first_picture(folder):
-    """The first picture of a run as an image, None where there is nothing to
-    draw."""
+    """The first picture of a run as an image, other than that of its effort;
+    None where there is nothing to draw."""
     try:
-        _, figure = next(draw.pictures(RunFolder(folder), style.COLUMN))
+        figure = next(figure for name, figure
+                      in draw.pictures(RunFolder(folder), style.COLUMN)
+                      if name != "convergence")
     except (InputError, StopIteration):
         return None
     data = io.BytesIO()
@@ -28,10 +30,13 @@ def first_picture(folder):
 
 
 def draw_pair(folders, titles, path):
-    """Draw two runs into a PNG; False where one has nothing to draw."""
+    """Draw two runs into a PNG; False where there is nothing to draw."""
     images = [first_picture(folder) for folder in folders]
-    if None in images:
+    drawn = [image for image in images if image]
+    if not drawn:
         return False
+    images = [image or Image.new("RGB", drawn[0].size, "white")
+              for image in images]
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), DPI // 8)
     strip = DPI // 5
     pair = Image.new("RGB", (sum(image.width for image in images),

@@ -26,6 +26,14 @@ import numpy
 from .nearest_word import did_you_mean, nearest_word
 
 
+def read_json(path):
+    """An object of JSON; empty where there is none."""
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError):
+        return {}
+
+
 def finite(value):
     return float(value) if math.isfinite(value) else None
 
@@ -61,10 +69,7 @@ class RunFigures:
 
     def __init__(self, folder):
         folder = pathlib.Path(folder)
-        try:
-            self.summary = json.loads((folder / "summary.json").read_text())
-        except (OSError, ValueError):
-            self.summary = {}
+        self.summary = read_json(folder / "summary.json")
         self.columns = {}
         try:
             with open(folder / "levels.csv") as file:

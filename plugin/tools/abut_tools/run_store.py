@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Finished runs on disk. Each stands in a folder `runs/<key>-<repeat>` with the
-files that `abut run` wrote and `run.json`. A run works in `<that>.part`, which
+files that `abut run` wrote and `record.json`. A run works in `<that>.part`, which
 is renamed when all is written: an interrupted one leaves nothing that could be
 taken for a result."""
 import fcntl
@@ -77,7 +77,7 @@ class RunStore:
         """The finished run of a setting; None if there is none, if a signal
         ended it, or if it ended for want of time and there is more now."""
         try:
-            text = (self.place(setting, repeat) / "run.json").read_text()
+            text = (self.place(setting, repeat) / "record.json").read_text()
             record = RunRecord(**json.loads(text))
         except (OSError, ValueError, TypeError):
             return None
@@ -96,7 +96,7 @@ class RunStore:
         """Keep the contents of the folder given by begin(), and the record."""
         here = self.place(record.setting, repeat)
         part = here.with_suffix(".part")
-        write_at_once(part / "run.json", json.dumps(asdict(record), indent=2))
+        write_at_once(part / "record.json", json.dumps(asdict(record), indent=2))
         # What stood here was short of time.
         shutil.rmtree(here, ignore_errors=True)
         part.rename(here)
