@@ -17,7 +17,7 @@ for words in ([], ["--help"], ["help"]):
     p.expect("abut run SCENE.prm" in p.call(*words).stdout, f"help {words}")
 p.expect("--output" in p.call("help", "run").stdout, "help run")
 for command in ("new", "run", "check", "search", "chart", "atlas",
-                "parameters"):
+                "parameters", "serve"):
     p.expect(p.call(command, "--help").stdout == p.call("help", command).stdout
              and p.call(command, "--help").returncode == 0, f"{command} --help")
 

@@ -8,9 +8,13 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 
-from served import Served
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]
+                       / "plugin/tools"))
+from abut_tools.served import Served  # noqa: E402
+
 
 class Folder:
     """A folder that scenes are written to."""

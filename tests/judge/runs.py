@@ -14,8 +14,8 @@ import tempfile
 from scene import Scene
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "tests/app"))
-from served import Served  # noqa: E402
+sys.path.insert(0, str(ROOT / "plugin/tools"))
+from abut_tools.served import Served  # noqa: E402
 
 MOST_UNKNOWNS = 2000
 WAITING = 15  # real by processor time, on a machine with other work

@@ -2,6 +2,7 @@
 #include "command_line.h"
 
 #include "app/input/input_error.h"
+#include "failure_list.h"
 
 #include <abut/dealii/nearest_word.h>
 
@@ -14,11 +15,13 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"new", Command::new_scene},         {"run", Command::run},
-        {"check", Command::check},           {"search", Command::search},
-        {"chart", Command::chart},           {"atlas", Command::atlas},
-        {"parameters", Command::parameters}, {"help", Command::help},
-        {"--help", Command::help},           {"-h", Command::help},
+        {"new", Command::new_scene},    {"run", Command::run},
+        {"check", Command::check},      {"search", Command::search},
+        {"chart", Command::tool},       {"atlas", Command::tool},
+        {"draw", Command::tool},        {"report", Command::tool},
+        {"parameters", Command::parameters},
+        {"serve", Command::serve},      {"help", Command::help},
+        {"--help", Command::help},      {"-h", Command::help},
         {"--version", Command::version}};
 
     const char *const general_help =
@@ -29,10 +32,13 @@ namespace abut::app
                           masses
   abut run SCENE.prm      solve a scene
   abut check SCENE.prm    read a scene, check its data and stop before solving
+  abut draw FOLDER        draw pictures of a run
+  abut report FOLDER      write a page about a run
   abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
   abut chart FILE.prm     run a series of a scene: error against time, work, ...
   abut atlas [FOLDER]     run the scenes of known failures and their cures
   abut parameters         print the reference of all parameters (Markdown)
+  abut serve              run the commands that come on standard input
   abut help COMMAND       explain a command
   abut --version          print the versions of abut, deal.II and Trilinos
 
@@ -80,13 +86,16 @@ Exit code: 0 solved, 2 wrong input, 3 no reliable result (the last one was
 written), 4 stopped by SIGTERM or SIGINT after a checkpoint was written (go on
 with --resume), 1 internal error.
 )"},
-        {"check",
-         R"(abut check SCENE.prm [--set "Section/Name=value"]... [--verbose]
+        {"check", R"(abut check SCENE.prm [options]
 
 Read the scene, check it without solving, and print the problem on the first
 mesh: boundary ids with areas, positions and mean normals, rigid body modes that
 supports leave, obstacles, pairs, and the unknowns and memory of the run.
 Exit code 0 without errors, else 2.
+
+  --set "Section/Name=value"  override a parameter of the file; may be repeated
+  --values                    print all parameters with their values (JSON), and
+                              check no more than these
 )"},
         {"search", R"(abut search SCENE.prm [options]
 
@@ -105,10 +114,11 @@ chart errors against time, work and parameters.
   --set "Name=value"  override a parameter of FILE.prm; may be repeated
   --output DIR        folder of the results (default: output/<name of FILE>)
   --plan              print the points and stop before the first run
+  --parameters        print the parameters of chart files and stop
   --quiet             print warnings and errors only
 
 Results: runs.csv (a row per run, failed ones included), cheapest.md (the
-cheapest run for each error), pictures (SVG), and the runs themselves in
+cheapest run for each error), pictures (SVG, PNG), and the runs themselves in
 the folder 'runs'. Started again, it makes only the runs that are missing; a
 changed setting, scene or program is a new run.
 
@@ -122,10 +132,31 @@ that do not (default: prm/failures), or one pair of it. Compare the results with
 the expectations in the comments of the files, and write a page about it.
 
   --output DIR    folder of the runs (default: output/atlas)
-  --report FILE   the page (default: failures.md in that folder)
+  --report FILE   the page (default: failures.md in that folder); its pictures
+                  are beside it, in pictures/failures
+  --no-pictures   do not draw the runs
   --quiet         print only unexpected results
 
 Exit code: 0 all as expected, 3 not all, 2 wrong input.
+)"},
+        {"draw", R"(abut draw FOLDER [options]
+
+Draw the pictures of a run from the files in its output folder, as SVG and PNG.
+It needs Python 3 with NumPy and Matplotlib.
+
+  --output DIR     folder of the pictures (default: FOLDER)
+  --width MM       width in mm, 84 (a column) or 174 (a page; default)
+  --picture NAME   draw this picture only; may be repeated
+  --quiet          print warnings and errors only
+
+ABUT_PYTHON in the environment names the Python interpreter; otherwise the first
+of python3 and /usr/bin/python3 that has both packages is used.
+
+Exit code: 0 drawn, 2 wrong input or no such Python, 3 nothing to draw.
+)"},
+        {"report", R"(abut report FOLDER [options]
+
+Write a page (HTML) about a run from the files in its output folder.
 )"},
         {"parameters", R"(abut parameters [options]
 
@@ -135,9 +166,15 @@ and meaning, as Markdown.
   --scene KIND   those of one kind of scenes, such as solid
   --level LEVEL  basic, advanced (basic ones as well) or expert (all: default)
 )"},
-        {"help", R"(abut help [COMMAND]
+        {"serve", R"(abut serve
 
-Print the commands, or explain one.
+Run the commands that come on standard input, one after the other, each in a
+process of its own: the program is loaded once. For programs that make many
+runs, such as 'abut chart'; serve.cc in the sources describes a request.
+)"},
+        {"help", R"(abut help [COMMAND | failures]
+
+Print the commands, explain one, or list the known failures by code.
 )"}};
 
     std::vector<std::string> names(const std::map<std::string, Command> &map)
@@ -179,20 +216,18 @@ Print the commands, or explain one.
 
     std::vector<std::string> options_of(const Command command)
     {
-      if (command == Command::atlas)
-        return {"--output", "--report", "--quiet"};
-      if (takes_scene(command))
-        return {"--set", "--set-if-used", "--output", "--quiet", "--verbose"};
-      return {"--set", "--output", "--quiet"};
+      if (command == Command::check)
+        return {"--set", "--set-if-used", "--values", "--quiet", "--verbose"};
+      return {"--set", "--set-if-used", "--output", "--quiet", "--verbose"};
     }
 
     void parse_file_command(const std::vector<std::string> &words,
                             CommandLine &result)
     {
       for (std::size_t i = 1; i < words.size(); ++i)
-        if (words[i] == "--set" && result.command != Command::atlas)
+        if (words[i] == "--set")
           result.overrides.push_back(value_of(words, i));
-        else if (words[i] == "--set-if-used" && takes_scene(result.command))
+        else if (words[i] == "--set-if-used")
           result.offers.push_back(value_of(words, i));
         else if (words[i] == "--output")
           result.output = value_of(words, i);
@@ -204,10 +239,8 @@ Print the commands, or explain one.
           result.resume = true;
         else if (words[i] == "--explain" && result.command == Command::run)
           result.explain = true;
-        else if (words[i] == "--plan" && result.command == Command::chart)
-          result.plan = true;
-        else if (words[i] == "--report" && result.command == Command::atlas)
-          result.report = value_of(words, i);
+        else if (words[i] == "--values" && result.command == Command::check)
+          result.values = true;
         else if (words[i].size() > 1 && words[i][0] == '-')
           throw InputError(
               "", "'" + words[0] + "' has no option '" + words[i] + "'."
@@ -219,8 +252,6 @@ Print the commands, or explain one.
           result.file = words[i];
       if (result.quiet && result.verbose)
         throw InputError("", "--quiet and --verbose exclude each other.");
-      if (result.file.empty() && result.command == Command::atlas)
-        result.file = "prm/failures";
       if (result.file.empty())
         throw InputError("", "'" + words[0] + "' needs a scene file: abut "
                                  + words[0] + " FILE.prm");
@@ -244,10 +275,7 @@ Print the commands, or explain one.
       result.command = Command::help;
       result.topic = words[0];
     }
-    else if (result.command == Command::run || result.command == Command::check
-             || result.command == Command::search
-             || result.command == Command::chart
-             || result.command == Command::atlas)
+    else if (takes_scene(result.command))
       parse_file_command(words, result);
     else if (result.command == Command::parameters)
       parse_reference_command(words, result);
@@ -258,9 +286,8 @@ Print the commands, or explain one.
     }
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
-    else if (words.size() > 1)
-      throw InputError("",
-                       "'" + words[0] + "' takes no '" + words.back() + "'.");
+    else if (words.size() > 1 && result.command != Command::tool)
+      throw InputError("", "'" + words[0] + "' takes no '" + words[1] + "'.");
     return result;
   }
 
@@ -268,6 +295,8 @@ Print the commands, or explain one.
   {
     if (topic.empty())
       return general_help;
+    if (topic == "failures")
+      return failure_list();
     const auto found = topics.find(topic);
     if (found == topics.end())
     {

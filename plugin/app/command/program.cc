@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "program.h"
 
-#include "app/atlas/atlas.h"
-#include "app/chart/chart.h"
 #include "app/input/collective.h"
 #include "app/input/output_folder.h"
 #include "app/report/status_file.h"
+#include "app/restart/disk.h"
 #include "app/restart/restart.h"
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
@@ -13,6 +12,7 @@
 #include "app/scenes/parameter_reference.h"
 #include "command_line.h"
 #include "new_scene.h"
+#include "tools.h"
 
 #include <abut/version.h>
 
@@ -154,8 +154,8 @@ namespace abut::app
     void record_error(StatusFile &status, const std::exception &error,
                       const bool has_results)
     {
-      if (dynamic_cast<const InputError *>(&error) != nullptr)
-        status.end(ExitCode::bad_input, error.what(), has_results);
+      if (const auto *input = dynamic_cast<const InputError *>(&error))
+        status.end(ExitCode::bad_input, input->message(), has_results);
       else if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
         status.end(ExitCode::bad_input, no_memory, has_results);
       else
@@ -202,7 +202,14 @@ namespace abut::app
       const RunLock lock(options.output_folder, communicator);
       StatusFile status(communicator, options.output_folder, line.words,
                         line.file);
-      collective(communicator, [&] { status.begin(); });
+      collective(communicator,
+                 [&]
+                 {
+                   status.begin();
+                   if (is_root(communicator))
+                     write_file(options.output_folder / "parameters.json",
+                                loaded.parameters_json());
+                 });
       Report report(communicator, verbosity(line));
       loaded.describe(report);
       try
@@ -286,6 +293,8 @@ namespace abut::app
                    {
                      file.emplace(line.file, line.overrides, line.offers);
                      loaded.emplace(*file);
+                     if (line.values && is_root(communicator))
+                       std::cout << loaded->parameters_json() << std::flush;
                      if (line.command == Command::search)
                        require_search(*loaded);
                      loaded->parse();
@@ -299,6 +308,8 @@ namespace abut::app
       }
       try
       {
+        if (line.values)
+          return ExitCode::success;
         const RunOptions options = run_options(communicator, line, *loaded);
         return line.command == Command::check
                    ? check_scene(*loaded, options, line)
@@ -325,36 +336,13 @@ namespace abut::app
       return ExitCode::success;
     }
 
-    /** For commands that run this program again for each scene. */
+    /** For commands that start other processes. */
     void require_one_rank(MPI_Comm communicator, const CommandLine &line)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
-        throw InputError(
-            "", std::string("'abut ")
-                    + (line.command == Command::chart ? "chart" : "atlas")
-                    + "' starts a process for each run, one after "
-                      "the other: start it without mpirun.");
-    }
-
-    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
-    {
-      require_one_rank(communicator, line);
-      Report report(communicator,
-                    line.quiet ? Verbosity::quiet : Verbosity::all);
-      return make_chart(line.file, line.overrides, output_folder(line),
-                        line.plan, report);
-    }
-
-    ExitCode atlas_command(MPI_Comm communicator, const CommandLine &line)
-    {
-      require_one_rank(communicator, line);
-      AtlasOptions options;
-      options.path = line.file;
-      options.output = line.output.empty() ? "output/atlas" : line.output;
-      options.report = line.report.empty() ? options.output / "failures.md"
-                                           : std::filesystem::path(line.report);
-      options.quiet = line.quiet;
-      return run_atlas(options);
+        throw InputError("",
+                         std::string("'abut ") + line.words.at(0)
+                             + "' runs on one rank: start it without mpirun.");
     }
   } // namespace
 
@@ -371,18 +359,14 @@ namespace abut::app
       return scene_command(communicator, line);
     case Command::new_scene:
       return new_command(communicator, line);
-    case Command::chart:
-      return chart_command(communicator, line);
-    case Command::atlas:
-      return atlas_command(communicator, line);
+    case Command::tool:
+      require_one_rank(communicator, line);
+      return run_tool(line.words);
     case Command::parameters:
-    {
-      const auto options = ReferenceOptions::parse(line.kind, line.level);
-      write_reference(text, options);
-      if (options.is_all())
-        write_chart_reference(text);
-    }
-    break;
+      write_reference(text, ReferenceOptions::parse(line.kind, line.level));
+      break;
+    case Command::serve: // by main(), before MPI begins
+      break;
     case Command::version:
       print_version(text);
       break;

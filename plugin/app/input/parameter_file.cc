@@ -302,7 +302,7 @@ namespace abut::app
     if (error.parameter.empty())
       return error;
     return {"", origin(error.parameter) + ": " + error.parameter + ": "
-                    + error.what()};
+                    + error.message()};
   }
 
   std::string ParameterFile::get(const std::string &path,
@@ -327,22 +327,6 @@ namespace abut::app
   bool ParameterFile::is_from_command_line(const std::string &path) const
   {
     return origin(path).compare(0, set_option.size(), set_option) == 0;
-  }
-
-  std::vector<Assignment>
-  ParameterFile::extract(const std::function<bool(const std::string &)> &wanted)
-  {
-    const auto rest = std::stable_partition(
-        assignments.begin(), assignments.end(),
-        [&](const Assignment &assignment) { return !wanted(assignment.path); });
-    const std::vector<Assignment> result(rest, assignments.end());
-    assignments.erase(rest, assignments.end());
-    return result;
-  }
-
-  void ParameterFile::append(const Assignment &assignment)
-  {
-    assignments.push_back(assignment);
   }
 
   std::map<std::string, std::string> ParameterFile::values() const

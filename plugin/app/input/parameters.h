@@ -15,7 +15,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -84,13 +83,6 @@ namespace abut::app
     /** @p error with the place of its parameter in front of the message, unless
      * it names none. */
     InputError placed(const InputError &error) const;
-
-    /** Take out the assignments whose path @p wanted accepts, in order. */
-    std::vector<Assignment>
-    extract(const std::function<bool(const std::string &path)> &wanted);
-
-    /** Add an assignment, which counts more than those before it. */
-    void append(const Assignment &assignment);
 
     /** The values that count, by path. */
     std::map<std::string, std::string> values() const;

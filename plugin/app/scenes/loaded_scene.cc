@@ -3,12 +3,14 @@
 
 #include "app/input/dealii_message.h"
 #include "app/input/input_error.h"
+#include "app/report/json.h"
 #include "app/restart/disk.h"
 #include "common_parameters.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <sstream>
 #include <utility>
 
 namespace abut::app
@@ -130,6 +132,31 @@ namespace abut::app
       report.progress(old + ".");
   }
 
+  std::string LoadedScene::parameters_json() const
+  {
+    std::ostringstream out;
+    JsonWriter json(out);
+    json.begin();
+    json.value("scene", file.name());
+    json.value("file", file.path());
+    json.value("kind", std::string(kind()));
+    json.value("dimension", static_cast<std::int64_t>(dimension));
+    json.begin("parameters");
+    const auto given = file.values();
+    for (const DeclaredParameter &parameter : declared)
+    {
+      json.begin(parameter.path);
+      json.value("value", parameter.value);
+      json.value("default", parameter.default_value);
+      json.value("given", given.count(parameter.path) > 0);
+      json.value("origin", file.origin(parameter.path));
+      json.end();
+    }
+    json.end();
+    json.end();
+    return out.str();
+  }
+
   RunIdentity LoadedScene::identity() const
   {
     RunOptions options;
@@ -153,14 +180,6 @@ namespace abut::app
   const char *LoadedScene::kind() const
   {
     return scene_kind.name;
-  }
-
-  bool LoadedScene::declares(const std::string &path) const
-  {
-    for (const DeclaredParameter &parameter : declared)
-      if (parameter.path == path)
-        return true;
-    return false;
   }
 
   std::string LoadedScene::get(const std::string &section,

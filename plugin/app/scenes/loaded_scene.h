@@ -27,15 +27,16 @@ namespace abut::app
     /** Write what is known before the solve. */
     void describe(Report &report) const;
 
+    /** The scene with all its parameters: value and default of each, and where
+     * the value is from. */
+    std::string parameters_json() const;
+
     /** What a run must have in common with one that it goes on with: program,
      * parameters, and content of the files that these name. */
     RunIdentity identity() const;
 
     /** Name of the kind of the scene. */
     const char *kind() const;
-
-    /** Whether the scene has a parameter of this name. */
-    bool declares(const std::string &path) const;
 
     /** Value of a parameter of section @p section. */
     std::string get(const std::string &section, const std::string &name);

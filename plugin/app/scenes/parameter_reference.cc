@@ -409,7 +409,7 @@ namespace abut::app
       write_links(out, std::string("scene `") + kind.name + "`",
                   reference.own(kind.name));
     out << "- [Old names](#old-names), [Pairs in "
-           "`summary.json`](#pairs-in-summaryjson), [Charts](#charts)\n"
+           "`summary.json`](#pairs-in-summaryjson)\n"
            "\n## Sections of several kinds of scenes\n";
     for (const std::string &name : reference.shared())
       reference.write(out, name);

@@ -457,11 +457,11 @@ namespace abut::app
     bool ChainScene::take_steps(Report &report, ChainSteps &steps)
     {
       LoadSteps load_steps(load_options);
-      std::string failure;
+      Message failure;
       while (!load_steps.is_finished() && failure.empty())
       {
         const double time = load_steps.target();
-        const std::string why = steps.solve(load_at(time), method);
+        const Message why = steps.solve(load_at(time), method);
         n_systems += steps.progress().step;
         if (why.empty())
         {

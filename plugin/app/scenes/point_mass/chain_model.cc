@@ -28,9 +28,9 @@ namespace abut::app
     }
 
     /** What a solve without an answer has seen. */
-    std::string explain(const abut_context *context, const abut_law *law,
-                        const abut_status status, const abut_reason reason,
-                        const abut_progress &progress)
+    Message explain(const abut_context *context, const abut_law *law,
+                    const abut_status status, const abut_reason reason,
+                    const abut_progress &progress)
     {
       if (status != ABUT_SUCCESS)
         return coded(ABUT_FAILURE_FLOATING_BODY, shim::core_message(context));
@@ -138,8 +138,8 @@ namespace abut::app
     shim::check(context.get(), abut_history_set(history.get(), &entries));
   }
 
-  std::string ChainSteps::solve(const ChainLoad &load,
-                                const MethodParameters &method)
+  Message ChainSteps::solve(const ChainLoad &load,
+                            const MethodParameters &method)
   {
     abut_strategy_options options = method.options;
     set_scales(chain, stiffness, load, options);

@@ -496,7 +496,7 @@ namespace abut::app
       {
         const double now = k == n ? time.end : k * dt;
         const std::vector<double> after = load_at(system, now);
-        const std::string failure = motion.step(dt, before, after);
+        const Message failure = motion.step(dt, before, after);
         if (!failure.empty())
         {
           report.warn(failure + " (at time " + short_number(now, 6) + ")");
@@ -582,7 +582,7 @@ namespace abut::app
                           "the time step is above the limit of the scheme, "
                               + short_number(limit, 4)
                               + ": use a smaller Time stepping/Step size"));
-      const std::string failure = motion.start(
+      const Message failure = motion.start(
           start_of(system), values(*velocity, 0.), load_at(system, 0.));
       if (!failure.empty())
       {
