@@ -60,6 +60,10 @@ def steps(text):
                "\n".join(body) + "\n")
 
 
+def words(line):
+    return [word for word in re.split(r"[\s,\[\]]+", line) if word]
+
+
 def same(printed, wanted):
     """Whether two lines have the same words, numbers to 1e-5."""
     pairs = list(zip(printed, wanted))
@@ -98,11 +102,9 @@ class Page:
         return self.call(program, int(code or 0))
 
     def output(self, _, __, text):
-        lines = [re.split(r"[\s,]+", line.strip())
-                 for line in self.printed.split("\n")]
+        lines = [words(line) for line in self.printed.split("\n")]
         for line in text.strip().split("\n"):
-            wanted = re.split(r"[\s,]+", line.strip())
-            while lines and not same(lines[0], wanted):
+            while lines and not same(lines[0], words(line)):
                 del lines[0]
             if not lines:
                 return f"'{line}' was not printed, but:\n{self.printed[-3000:]}"
