@@ -53,7 +53,8 @@ def steps(text):
             body.append(lines[n])
             n += 1
         n += 1
-        if found["info"].startswith("{"):  # a directive of the site
+        # Directives of the site, and formulas.
+        if found["info"].startswith("{") or found["info"] == "math":
             continue
         info = INFO.match(found["info"])
         if not info:
