@@ -8,6 +8,7 @@ SOURCE = ("FEBio TestSuite (https://github.com/febiosoftware/TestSuite), "
           "`Verify/co01.feb`, `co13.feb`, `co15.feb`, `co20.feb`, `co47.feb`; "
           "values of `code/linuxGoldStandards.py`")
 QUICK = False
+OPEN = "co36 not reached"
 PROBLEM = r"""
 (a) co01: two cubes of neo-Hooke's law, $E = 1$, $\nu = 0$, that keep their width, are pressed together by 0.2 in 10 steps. The law of contact is
 $p = 100 \langle -g \rangle$. The value is the root of the sum of squares of all displacements that are not prescribed.
