@@ -60,10 +60,13 @@ class Parameters(lexer.RegexLexer):
         (r".|\n", token.Text)]}
 
 
-def links_to_sources(app, docname, source):
-    """Links that leave the folder of documents are names of files in the site."""
+def from_repository(app, docname, source):
+    """Pages are written for readers of the repository, too: formulas are blocks of
+    math, and links may leave the folder of documents, where they are names of files
+    in the site."""
+    text = re.sub(r"^```math\n(.*?)^```$", r"$$\n\1$$", source[0], flags=re.M | re.S)
     source[0] = re.sub(r"\[([^\]]+)\]\((?:\.\./)+(?:include|plugin|tests|prm)/[^)]*\)",
-                       r"`\1`", source[0])
+                       r"`\1`", text)
 
 
 def complete_lists(app, doctree, docname):
@@ -76,4 +79,4 @@ def complete_lists(app, doctree, docname):
 def setup(app):
     app.add_lexer("prm", Parameters)
     app.connect("doctree-resolved", complete_lists)
-    app.connect("source-read", links_to_sources)
+    app.connect("source-read", from_repository)

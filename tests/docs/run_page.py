@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the blocks of a page of the manual in the order of the page, in an empty
-folder with a link to prm and the program in PATH:
+folder with links to prm, doc and include, and the program in PATH:
 
     run_page.py PAGE.md --abut build/release/abut
 
@@ -14,8 +14,10 @@ The first line of each block of code gives its intent:
     ```c {compile}      a file in C11, compiled with the public headers
     ```text {show}      for reading only
 
-{check NAME} and {show NAME} also write the block into a file of that name. Below a block a line `<!-- expect FILE KEY VALUE TOLERANCE -->` compares a number of
-a summary.json, or several (VALUE with commas), with an absolute tolerance. A block without intent is an error."""
+{check NAME}, {compile NAME} and {show NAME} also write the block into a file of that
+name. Below a block a line `<!-- expect FILE KEY VALUE TOLERANCE -->` compares a
+number of a summary.json, or several (VALUE with commas), with an absolute
+tolerance. A block without intent is an error."""
 import argparse
 import json
 import os
@@ -51,13 +53,18 @@ def steps(text):
             body.append(lines[n])
             n += 1
         n += 1
-        if found["info"].startswith("{"):  # a directive of the site
+        # Directives of the site, and formulas.
+        if found["info"].startswith("{") or found["info"] == "math":
             continue
         info = INFO.match(found["info"])
         if not info:
             raise ValueError(f"line {begin}: a block without intent: {found['info']}")
         yield (begin, info["intent"], info["language"], info["more"],
                "\n".join(body) + "\n")
+
+
+def words(line):
+    return [word for word in re.split(r"[\s,\[\]]+", line) if word]
 
 
 def same(printed, wanted):
@@ -77,8 +84,8 @@ class Page:
     def __init__(self, folder, abut):
         self.folder = folder
         self.environment = dict(os.environ, PATH=f"{abut.parent}:{os.environ['PATH']}")
-        (folder / "prm").symlink_to(SOURCE / "prm")
-        (folder / "doc").symlink_to(SOURCE / "doc")
+        for name in ("prm", "doc", "include"):
+            (folder / name).symlink_to(SOURCE / name)
 
     def call(self, command, code=0):
         done = subprocess.run(command, cwd=self.folder, env=self.environment,
@@ -98,11 +105,9 @@ class Page:
         return self.call(program, int(code or 0))
 
     def output(self, _, __, text):
-        lines = [re.split(r"[\s,]+", line.strip())
-                 for line in self.printed.split("\n")]
+        lines = [words(line) for line in self.printed.split("\n")]
         for line in text.strip().split("\n"):
-            wanted = re.split(r"[\s,]+", line.strip())
-            while lines and not same(lines[0], wanted):
+            while lines and not same(lines[0], words(line)):
                 del lines[0]
             if not lines:
                 return f"'{line}' was not printed, but:\n{self.printed[-3000:]}"
@@ -118,12 +123,13 @@ class Page:
         self.show(language, name, text)
         return self.call(["abut", "check", name])
 
-    def compile(self, language, _, text):
+    def compile(self, language, name, text):
         if language != "c":
             return f"{language} cannot be compiled here"
-        self.show(language, "block.c", text)
+        name = name or "block.c"
+        self.show(language, name, text)
         return self.call(["cc", "-std=c11", "-Wall", "-Werror", "-fsyntax-only",
-                          f"-I{SOURCE}/include", "block.c"])
+                          "-Iinclude", name])
 
     def expect(self, _, __, text):
         file, key, value, tolerance = text.split()

@@ -39,9 +39,9 @@ WORDS = [(re.compile(pattern, re.I), use) for pattern, use in (
 OPENING = re.compile(r"^(?:Of|Those|What)\b(?!.*\?$)")
 
 MASKS = [(re.compile(pattern, flags), use) for pattern, flags, use in (
+    (r"^```math$.*?^```$", re.M | re.S, " FORMULA "),
     (r"^```.*?^```$", re.M | re.S, "\n\n"),
     (r"<!--.*?-->", re.S, "\n\n"),
-    (r"^\$\$.*?^\$\$", re.M | re.S, " FORMULA "),
     (r"\{cite:\w+\}`[^`]*`", 0, " CITED "),
     (r"\{\w+\}`[^`]*`", 0, " TERM "),
     (r"`[^`]*`", 0, " CODE "),

@@ -8,7 +8,7 @@
 
 A NAME is a folder of this one, or the beginning of its name or of the part
 after the number. Without any, all are solved; with --quick those of a second
-or two. --report writes the page of all decks; --check compares the page with
+or two. --report writes the page, with the other decks as they were; --check compares the page with
 what the decks that were solved give now: words and reference values must be the
 same, values found may differ by their tolerance. --keep leaves scenes, meshes
 and results in DIR/NAME.
@@ -18,6 +18,7 @@ A folder has scene files and deck.py with
     ELEMENTS    what is the same as in the other program, and what is not
     QUICK       whether it is solved with --quick
     REMARKS     what else is to be said (may be left out)
+    OPEN        what was not reached, for the overview (may be left out)
     solve(deck) runs scenes and compares values, see class Deck
 Mesh files are written by deck.py, from lengths and numbers of cells (cells.py);
 laws in C are in laws/.
@@ -188,13 +189,14 @@ class Deck:
 
     def verdict(self):
         """Of the whole deck, in some words."""
-        if not self.good():
-            return "FAILED"
-        if any(row.verdict.startswith("differs") for row in self.rows):
-            return "differs in part, see there"
-        if any(row.verdict == "inside" for row in self.rows):
-            return "inside the spread"
-        return "agrees"
+        verdicts = [row.verdict for row in self.rows]
+        words = ("FAILED" if not self.good()
+                 else "differs in part, see there"
+                 if any(v.startswith("differs") for v in verdicts)
+                 else "inside the spread" if "inside" in verdicts
+                 else "agrees")
+        rest = getattr(self.text, "OPEN", "")
+        return f"{words}; {rest}" if rest else words
 
     def page(self):
         """Its part of the page."""
@@ -265,15 +267,22 @@ of a test on the source of its figures.
 """
 
 
-def report(decks):
-    overview = table(
-        ["deck", "problem", "values", "largest difference", ""],
-        [[f"[{deck.name}](#{anchor(deck)})", deck.text.TITLE,
-          str(len(deck.rows)), largest(deck), deck.verdict()]
-         for deck in decks])
-    lines = [HEAD, *overview, ""]
+def report(decks, page):
+    """The page, with the parts of decks that were not solved as they were."""
+    parts = {part.split(":")[0].replace(" ", "-"): part.rstrip("\n")
+             for part in page.split("\n## ")[1:]}
+    rows = {line.split("]")[0][3:]: line for line in page.split("\n")
+            if line.startswith("| [")}
     for deck in decks:
-        lines += deck.page()
+        parts[deck.name] = "\n".join(deck.page())[3:].rstrip("\n")
+        rows[deck.name] = table([], [[
+            f"[{deck.name}](#{anchor(deck)})", deck.text.TITLE,
+            str(len(deck.rows)), largest(deck), deck.verdict()]])[-1]
+    names = [folder.name for folder in folders() if folder.name in parts]
+    lines = [HEAD, *table(["deck", "problem", "values", "largest difference",
+                           ""], []), *(rows[name] for name in names), ""]
+    for name in names:
+        lines += ["## " + parts[name], ""]
     lines += [CLOSED, *table(["scene", "test", "figures"], closed_forms())]
     return "\n".join(lines) + "\n"
 
@@ -325,8 +334,6 @@ def main():
     decks = [Deck(folder) for folder in chosen(arguments.names)]
     if arguments.quick or arguments.long:
         decks = [deck for deck in decks if deck.text.QUICK == arguments.quick]
-    if arguments.report and (arguments.names or len(decks) < len(folders())):
-        raise SystemExit("--report needs all decks")
     abut = str(pathlib.Path(arguments.abut).resolve())
     with tempfile.TemporaryDirectory(prefix="abut-verify-") as folder:
         base = pathlib.Path(arguments.keep or folder).resolve()
@@ -337,7 +344,9 @@ def main():
                 print("  " + " | ".join(row.cells()), flush=True)
     failures = [deck.name for deck in decks if not deck.good()]
     if arguments.report:
-        pathlib.Path(arguments.report).write_text(report(decks))
+        page = pathlib.Path(arguments.report)
+        page.write_text(report(decks,
+                               page.read_text() if page.exists() else ""))
     if arguments.check:
         page = pathlib.Path(arguments.check).read_text()
         failures += stale(decks, page)
