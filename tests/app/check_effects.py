@@ -75,7 +75,7 @@ p.expect(result.returncode == 0, f"--set-if-used: {result.stderr}")
 text = (p.source / "prm/point-mass.prm").read_text()
 p.write("unused.prm", text + "\nsubsection Method\n  set Barrier factor = 0.5\n"
         "  set Enforcement = lagrange\nend\n")
-result = p.call("run", "unused.prm", "--output", "out")
+result = p.call("run", "unused.prm", "--output", "out", "--verbose")
 p.expect(result.returncode == 0, f"unused setting of a file: {result.stderr}")
 summary = json.loads((p.folder / "out/summary.json").read_text())
 p.expect(summary["not_used"] == ["Method/Barrier factor: it belongs to "

@@ -14,15 +14,19 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"run", Command::run},       {"check", Command::check},
-        {"search", Command::search}, {"chart", Command::chart},
-        {"atlas", Command::atlas},   {"parameters", Command::parameters},
-        {"help", Command::help},     {"--help", Command::help},
-        {"-h", Command::help},       {"--version", Command::version}};
+        {"new", Command::new_scene},         {"run", Command::run},
+        {"check", Command::check},           {"search", Command::search},
+        {"chart", Command::chart},           {"atlas", Command::atlas},
+        {"parameters", Command::parameters}, {"help", Command::help},
+        {"--help", Command::help},           {"-h", Command::help},
+        {"--version", Command::version}};
 
     const char *const general_help =
         R"(abut - contact mechanics with deal.II
 
+  abut new KIND [FILE]    write a commented scene to begin with: block, hertz,
+                          two-bodies, friction, sliding, impact, obstacle,
+                          masses
   abut run SCENE.prm      solve a scene
   abut check SCENE.prm    read a scene, check its data and stop before solving
   abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
@@ -36,6 +40,20 @@ In parallel: mpirun -n 4 abut run SCENE.prm
 )";
 
     const std::map<std::string, std::string> topics = {
+        {"new", R"(abut new KIND [FILE.prm]
+
+Write a scene to begin with, with comments and the exact values that its results
+are compared with, into FILE.prm (default: KIND.prm), which must not exist:
+
+  block        a block on a rigid plane
+  hertz        two cylinders, refined where they touch
+  two-bodies   a block on another one, meshes that do not match
+  friction     a rigid plate that slides on a block
+  sliding      a block dragged over a soft one: large strain, large sliding
+  impact       a bar that hits a wall
+  obstacle     a membrane over an obstacle
+  masses       a mass on a spring above a support
+)"},
         {"run", R"(abut run SCENE.prm [options]
 
 Solve the scene and write its results.
@@ -48,6 +66,8 @@ Solve the scene and write its results.
   --resume                    go on from the last checkpoint in that folder, of
                               the same scene, on any number of ranks
   --quiet                     print warnings and errors only
+  --verbose                   print all lines of progress, all figures of
+                              summary.json, what was modelled and what it cost
   --explain                   say at the end what could be left out, at the
                               target error if there is one
 
@@ -60,11 +80,14 @@ Exit code: 0 solved, 2 wrong input, 3 no answer to rely on (what there is was
 written), 4 stopped by SIGTERM or SIGINT after a checkpoint was written (go on
 with --resume), 1 internal error.
 )"},
-        {"check", R"(abut check SCENE.prm [--set "Section/Name=value"]...
+        {"check",
+         R"(abut check SCENE.prm [--set "Section/Name=value"]... [--verbose]
 
 Read the scene, check everything that can be found out without solving, and
-print what would be solved, on the first mesh: unknowns, boundary ids with the
-number of their faces and where they are, pairs. Exit code 0 when all is well, 2 when not.
+print what would be solved, on the first mesh: boundary ids with their areas,
+places and mean normals, rigid motions that supports leave, obstacles, pairs,
+and the unknowns and memory that the run will take. Exit code 0 when all is
+well, 2 when not.
 )"},
         {"search", R"(abut search SCENE.prm [options]
 
@@ -143,7 +166,7 @@ Print the commands, or explain one.
       if (command == Command::atlas)
         return {"--output", "--report", "--quiet"};
       if (takes_scene(command))
-        return {"--set", "--set-if-used", "--output", "--quiet"};
+        return {"--set", "--set-if-used", "--output", "--quiet", "--verbose"};
       return {"--set", "--output", "--quiet"};
     }
 
@@ -159,6 +182,8 @@ Print the commands, or explain one.
           result.output = value_of(words, i);
         else if (words[i] == "--quiet")
           result.quiet = true;
+        else if (words[i] == "--verbose" && takes_scene(result.command))
+          result.verbose = true;
         else if (words[i] == "--resume" && result.command == Command::run)
           result.resume = true;
         else if (words[i] == "--explain" && result.command == Command::run)
@@ -176,6 +201,8 @@ Print the commands, or explain one.
                                    + words[i] + "' were given.");
         else
           result.file = words[i];
+      if (result.quiet && result.verbose)
+        throw InputError("", "--quiet and --verbose exclude each other.");
       if (result.file.empty() && result.command == Command::atlas)
         result.file = "prm/failures";
       if (result.file.empty())
@@ -206,10 +233,16 @@ Print the commands, or explain one.
              || result.command == Command::chart
              || result.command == Command::atlas)
       parse_file_command(words, result);
+    else if (result.command == Command::new_scene && words.size() <= 3)
+    {
+      result.topic = words.size() > 1 ? words[1] : "";
+      result.file = words.size() > 2 ? words[2] : "";
+    }
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
     else if (words.size() > 1)
-      throw InputError("", "'" + words[0] + "' takes no '" + words[1] + "'.");
+      throw InputError("",
+                       "'" + words[0] + "' takes no '" + words.back() + "'.");
     return result;
   }
 

@@ -11,6 +11,7 @@
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/loaded_scene.h"
 #include "command_line.h"
+#include "new_scene.h"
 
 #include <abut/version.h>
 
@@ -18,6 +19,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -101,13 +103,27 @@ namespace abut::app
                                        identity, resumes);
     }
 
-    ExitCode say_stopped(const RunOptions &options, const bool quiet)
+    Verbosity verbosity(const CommandLine &line)
     {
-      if (is_root(options.communicator) && !quiet)
-        std::cout << "\n  stopped; 'abut run ... --resume' goes on from the "
-                     "checkpoint in "
-                  << options.output_folder.string() << std::endl;
-      return ExitCode::stopped;
+      return line.quiet     ? Verbosity::quiet
+             : line.verbose ? Verbosity::all
+                            : Verbosity::brief;
+    }
+
+    /** "2 csv, 1 json, 3 vtu": the files of a folder, by ending. */
+    std::string files_in(const std::filesystem::path &folder)
+    {
+      std::map<std::string, unsigned int> n_files;
+      std::error_code error;
+      for (const auto &file :
+           std::filesystem::directory_iterator(folder, error))
+        if (const std::string ending = file.path().extension().string();
+            file.is_regular_file(error) && ending.size() > 1)
+          ++n_files[ending.substr(1)];
+      std::string text;
+      for (const auto &[ending, n] : n_files)
+        text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + ending;
+      return text;
     }
 
     /** Run the scene. An error that comes when there are results already must
@@ -154,8 +170,14 @@ namespace abut::app
       options.restart = restart.get();
       const Outcome outcome = run_to_end(loaded, options, report);
       if (outcome == Outcome::stopped)
-        return say_stopped(options, line.quiet);
+      {
+        report.print("\n  stopped; 'abut run ... --resume' goes on from the "
+                     "checkpoint in "
+                     + options.output_folder.string());
+        return ExitCode::stopped;
+      }
       report.set("converged", outcome == Outcome::converged);
+      report.check_expected();
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
       if (restart)
@@ -163,9 +185,10 @@ namespace abut::app
       report.print_summary();
       if (line.explain)
         report.explain();
-      if (is_root(communicator) && !line.quiet)
-        std::cout << "\n  results in " << options.output_folder.string()
-                  << std::endl;
+      report.print("  results in " + options.output_folder.string() + ": "
+                   + files_in(options.output_folder));
+      if (!line.verbose)
+        report.print("  all figures: summary.json, or abut run --verbose");
       return outcome == Outcome::converged ? ExitCode::success
                                            : ExitCode::unusable_answer;
     }
@@ -179,7 +202,7 @@ namespace abut::app
       StatusFile status(communicator, options.output_folder, line.words,
                         line.file);
       collective(communicator, [&] { status.begin(); });
-      Report report(communicator, line.quiet);
+      Report report(communicator, verbosity(line));
       loaded.describe(report);
       try
       {
@@ -241,12 +264,11 @@ namespace abut::app
                    if (is_root(options.communicator))
                      check_output_folder(options.output_folder);
                  });
-      Report report(options.communicator, line.quiet);
+      Report report(options.communicator, verbosity(line));
       loaded.describe(report);
       loaded.scene->check(options, report);
       report.print_summary();
-      if (is_root(options.communicator) && !line.quiet)
-        std::cout << "\n  " << line.file << ": no errors found" << std::endl;
+      report.print("\n  " + line.file + ": no errors found");
       return ExitCode::success;
     }
 
@@ -287,6 +309,21 @@ namespace abut::app
       }
     }
 
+    ExitCode new_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      collective(communicator,
+                 [&]
+                 {
+                   if (!is_root(communicator))
+                     return;
+                   const std::string file =
+                       write_new_scene(line.topic, line.file).string();
+                   std::cout << file << " written; solve it: abut run " << file
+                             << std::endl;
+                 });
+      return ExitCode::success;
+    }
+
     /** For commands that run this program again for each scene. */
     void require_one_rank(MPI_Comm communicator, const CommandLine &line)
     {
@@ -301,7 +338,8 @@ namespace abut::app
     ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
     {
       require_one_rank(communicator, line);
-      Report report(communicator, line.quiet);
+      Report report(communicator,
+                    line.quiet ? Verbosity::quiet : Verbosity::all);
       return make_chart(line.file, line.overrides, output_folder(line),
                         line.plan, report);
     }
@@ -330,6 +368,8 @@ namespace abut::app
     case Command::check:
     case Command::search:
       return scene_command(communicator, line);
+    case Command::new_scene:
+      return new_command(communicator, line);
     case Command::chart:
       return chart_command(communicator, line);
     case Command::atlas:

@@ -296,6 +296,15 @@ namespace abut::app
            + all_names[body].describe(id);
   }
 
+  template <int dim>
+  std::string Bodies<dim>::name_of_body(const unsigned int body) const
+  {
+    for (const auto &[name, number] : body_names)
+      if (number == body)
+        return name;
+    return "body " + std::to_string(body + 1);
+  }
+
   template <int dim> std::string Bodies<dim>::names_in_words() const
   {
     std::string text;

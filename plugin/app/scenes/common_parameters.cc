@@ -2,9 +2,12 @@
 #include "common_parameters.h"
 
 #include "app/input/effect_rules.h"
+#include "app/input/expression.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/pair_measures.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <ostream>
 
@@ -14,6 +17,8 @@ namespace abut::app
   {
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
+
+    const char *const expected_name = "Expected";
 
     std::vector<std::string> kind_names()
     {
@@ -57,6 +62,28 @@ namespace abut::app
           << "\n";
     }
   } // namespace
+
+  std::vector<ExpectedFigure> parse_expected(const std::string &text)
+  {
+    const std::string path = std::string("Output/") + expected_name;
+    std::vector<ExpectedFigure> figures;
+    for (const std::string &part : split_list(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      const std::size_t colon = part.find(':');
+      if (colon == std::string::npos || colon == 0)
+        throw InputError(path, "'" + part
+                                   + "' is not a figure, a colon, and its "
+                                     "value.");
+      const Expression<2> formula(part.substr(colon + 1), path);
+      if (!formula.is_constant())
+        throw InputError(path, "'" + part + "' depends on x, y or t.");
+      figures.push_back({dealii::Utilities::trim(part.substr(0, colon)),
+                         formula.evaluate({dealii::Point<2>()})[0]});
+    }
+    return figures;
+  }
 
   const SceneKind &scene_kind(const ParameterFile &file)
   {
@@ -107,6 +134,12 @@ namespace abut::app
     prm.declare_entry("Report", "false", Patterns::Bool(),
                       "Write a page about the run, report.html, as `abut "
                       "report` does; also where the scene has an error.");
+    prm.declare_entry(
+        expected_name, "", Patterns::Anything(),
+        "Figures of summary.json whose values are known beforehand, with these "
+        "values: numbers, or formulas with pi. A component of a vector has its "
+        "number, from 0. The run prints them with the relative errors of its "
+        "results. Example: 'pair_1_pressure: sqrt(2/pi); pair_1_force[1]: 5'.");
     prm.leave_subsection();
   }
 

@@ -23,6 +23,10 @@ namespace abut::app
   void declare_all(dealii::ParameterHandler &prm, const SceneKind &kind,
                    const Scene &scene);
 
+  /** Read `Output/Expected`: figures and formulas, "energy: 2*pi; active: 3".
+   */
+  std::vector<ExpectedFigure> parse_expected(const std::string &text);
+
   /** Throw InputError for laws that need the stress of elastic bodies: for
    * scenes without any. */
   void require_law_without_stress(const MethodParameters &method);

@@ -93,6 +93,7 @@ namespace abut::app
   template <int dim> void ContactRun<dim>::check()
   {
     prepare();
+    report.print("  " + model.description());
     if (model.has_contact())
     {
       state.present.time = state.load_steps.target();
@@ -107,7 +108,47 @@ namespace abut::app
         throw InputError(model.support_of(why), why);
     }
     model.report_check();
-    report.set("dofs", model.problem().dof_handler.n_dofs());
+    report_size();
+  }
+
+  template <int dim> void ContactRun<dim>::report_size()
+  {
+    const DiscreteProblem<dim> &problem = model.problem();
+    const RefinementParameters &refinement = state.settings.refinement;
+    const unsigned int degree = problem.dof_handler.get_fe(0).degree,
+                       n_components = problem.n_components(),
+                       first = state.mesh_number;
+    // Unknowns inside of the cells, and others on surfaces.
+    const double n_dofs = double(problem.dof_handler.n_dofs());
+    const double inside = double(model.triangulation.n_global_active_cells())
+                          * std::pow(degree, dim) * n_components;
+    const double finer = std::pow(2., refinement.level - first);
+    const double n_last =
+        first < refinement.level
+            ? inside * std::pow(finer, dim)
+                  + std::max(0., n_dofs - inside) * std::pow(finer, dim - 1)
+            : n_dofs;
+    const double bytes =
+        estimated_bytes(dim, n_last / (n_components * std::pow(degree, dim)),
+                        degree, n_components);
+    report.set("dofs", problem.dof_handler.n_dofs());
+    report.set("expected_dofs", n_last);
+    report.set("expected_memory_mb", bytes / 1048576.);
+    report.print("  unknowns: " + short_number(n_dofs)
+                 + (first < refinement.level
+                        ? " on the first mesh, about " + short_number(n_last, 3)
+                              + " on mesh " + std::to_string(refinement.level)
+                        : "")
+                 + (refinement.adaptive_cycles > 0
+                        ? ", more on adaptive meshes up to number "
+                              + std::to_string(refinement.last_mesh())
+                        : ""));
+    report.print("  memory: about " + short_number(bytes / 1048576., 2)
+                 + " MiB; linear systems: "
+                 + (state.settings.solver.is_direct(
+                        static_cast<unsigned long long>(n_last), n_components)
+                        ? "direct solver"
+                        : "iterative solver with multigrid"));
   }
 
   template <int dim> Message ContactRun<dim>::free_motion()
@@ -238,9 +279,9 @@ namespace abut::app
     { return refuse(search); };
     events.missed = [this](const std::size_t n_nodes)
     {
-      report.progress("  " + std::to_string(n_nodes)
-                      + " nodes have penetrated without a constraint: "
-                      + "searching again");
+      report.detail("  " + std::to_string(n_nodes)
+                    + " nodes have penetrated without a constraint: "
+                    + "searching again");
     };
     return events;
   }
@@ -559,10 +600,10 @@ namespace abut::app
       {
         if (!can_pass_over())
           return false;
-        report.progress("mesh " + std::to_string(state.mesh_number + 1)
-                        + " has no answer, which the next one only starts "
-                          "from: "
-                        + failure.text);
+        report.detail("mesh " + std::to_string(state.mesh_number + 1)
+                      + " has no answer, which the next one only starts "
+                        "from: "
+                      + failure.text);
         set_refine_flags();
         refine();
         begin_anew();
@@ -725,9 +766,9 @@ namespace abut::app
     const bool goes_on = load_steps.reject() && why.empty();
     const bool is_same = failure.text == told;
     if (goes_on)
-      report.progress("load step cut back to time "
-                      + short_number(load_steps.target(), 6) + ": "
-                      + (is_same ? "for the same reason" : failure.text));
+      report.detail("load step cut back to time "
+                    + short_number(load_steps.target(), 6) + ": "
+                    + (is_same ? "for the same reason" : failure.text));
     else
     {
       // Perhaps the reason.
@@ -771,6 +812,10 @@ namespace abut::app
     else
     {
       prepare();
+      report.print("  " + model.description() + "; "
+                   + std::to_string(model.problem().dof_handler.n_dofs())
+                   + " unknowns"
+                   + (state.is_last_mesh() ? "" : " on the first mesh"));
       solve_start();
       if (model.has_contact())
         diagnose_penalty(report, state.settings.method);
@@ -818,7 +863,7 @@ namespace abut::app
                     "can be computed with them. Choose other units of loads "
                     "and stiffness.");
     for (const BodyMotion &motion : examination.motions)
-      report.progress(motion.text);
+      report.detail(motion.text);
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding);
     for (const std::string &lost : model.written_numbers().lost())

@@ -52,6 +52,8 @@ namespace abut::app
     /** Of the method on the present mesh; forgets preconditioners. */
     void set_parameters();
     void begin_contact();
+    /** Unknowns and memory that the run will take, for `abut check`. */
+    void report_size();
     /** A rigid motion that nothing can hold, in words; or empty. */
     Message free_motion();
     NewtonParameters newton_parameters() const;

@@ -7,6 +7,7 @@
 #include "common_parameters.h"
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 
 #include <utility>
 
@@ -97,6 +98,7 @@ namespace abut::app
     {
       throw blamed(dealii_message(error));
     }
+    expected = parse_expected(get("Output", "Expected"));
     not_used =
         values_without_effect(scene->effects(), SceneValues(declared, file));
   }
@@ -109,6 +111,15 @@ namespace abut::app
       report.set("title", title);
     if (dimension > 0)
       report.set("dimension", dimension);
+    const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(report.communicator);
+    report.print(
+        file.name() + ": " + (title.empty() ? "" : title + ", ")
+        + "scene of kind " + scene_kind.name
+        + (dimension > 0 ? " in " + std::to_string(dimension) + "D" : "")
+        + (n_ranks > 1 ? ", " + std::to_string(n_ranks) + " ranks" : ""));
+    for (const ExpectedFigure &figure : expected)
+      report.expect(figure.key, figure.value);
     for (const std::string &line : not_used)
       report.not_used(line);
   }
@@ -120,8 +131,10 @@ namespace abut::app
     RunIdentity result = program_identity();
     for (const DeclaredParameter &parameter : declared)
     {
-      // How often checkpoints are written changes no result.
-      if (parameter.path.rfind("Checkpoint/", 0) == 0)
+      // How often checkpoints are written, and what results are compared with,
+      // changes none.
+      if (parameter.path.rfind("Checkpoint/", 0) == 0
+          || parameter.path == "Output/Expected")
         continue;
       result[parameter.path] = parameter.value;
       const std::string content = content_of(options, parameter.value);

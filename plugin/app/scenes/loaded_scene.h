@@ -52,6 +52,7 @@ namespace abut::app
 
     const SceneKind &scene_kind;
     std::vector<std::string> not_used; ///< values that this run does not use
+    std::vector<ExpectedFigure> expected;
     unsigned int dimension;
     dealii::ParameterHandler prm;
     std::vector<DeclaredParameter> declared; ///< with their values

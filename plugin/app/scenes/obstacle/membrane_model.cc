@@ -10,6 +10,7 @@
 #include "app/pictures/outline.h"
 #include "app/restart/archive.h"
 #include "app/scenes/automatic_law.h"
+#include "app/scenes/method_words.h"
 #include "membrane_report.h"
 
 #include <abut/dealii/versions.h>
@@ -237,6 +238,15 @@ namespace abut::app
                        membrane.ghosted(run.u), *exact);
   }
 
+  template <int dim> std::string MembraneModel<dim>::description() const
+  {
+    std::string text = std::string(dim == 2 ? "membrane" : "scalar field")
+                       + ", " + law_in_words(run.method);
+    if (motion)
+      text += std::string(", in time by ") + parameters.time.scheme.name;
+    return text;
+  }
+
   template <int dim>
   std::string MembraneModel<dim>::line_of(const ContactResult &result) const
   {
@@ -244,12 +254,11 @@ namespace abut::app
       return "time " + short_number(result.time, 6) + ": "
              + std::to_string(result.active) + " in contact, energy "
              + short_number(result.energy, 8);
-    return "level " + std::to_string(result.level) + ": "
+    return "mesh " + std::to_string(result.level) + ": "
            + std::to_string(result.dofs) + " unknowns, "
-           + std::to_string(result.active) + " in contact, "
-           + std::to_string(result.steps) + " steps, "
-           + std::to_string(result.linear.n_iterations)
-           + " linear iterations, energy " + std::to_string(result.energy);
+           + std::to_string(result.active) + " points in contact, "
+           + std::to_string(result.steps) + " active set iterations, energy "
+           + short_number(result.energy, 8);
   }
 
   template <int dim> void MembraneModel<dim>::declare_tables()
@@ -358,7 +367,7 @@ namespace abut::app
     run.report.set("constraints", run.contact.results().measures().n_rows);
     for (const BoundaryPart<dim> &part :
          boundary_parts(this->triangulation, run.communicator))
-      run.report.progress(names.describe(part.id) + ": " + in_words(part));
+      run.report.print("  " + names.describe(part.id) + ": " + in_words(part));
   }
 
   template <int dim>

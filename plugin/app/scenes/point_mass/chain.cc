@@ -10,6 +10,7 @@
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/load_step_parameters.h"
 #include "app/scenes/method_effects.h"
+#include "app/scenes/method_words.h"
 #include "chain_model.h"
 #include "point_mass.h"
 #include "row_formulas.h"
@@ -302,6 +303,10 @@ namespace abut::app
       report.set("discretisation", "masses");
       report.set("dofs", chain.n_unknowns());
       report.set("constraints", chain.n);
+      report.print("  " + counted(chain.n, "mass", "masses") + " on a plane, "
+                   + std::to_string(chain.n_unknowns()) + " unknowns; "
+                   + law_in_words(method)
+                   + (has_friction ? ", friction" : ", no friction"));
       report.model("search", false, "the masses and their plane are given");
       report.model("friction", has_friction,
                    has_friction ? "Coulomb, mu = " + coefficient->text()
@@ -400,9 +405,10 @@ namespace abut::app
       }
       report.progress(
           "time " + short_number(time, 6) + "  open " + std::to_string(sum.open)
-          + "  stick " + std::to_string(sum.stick) + "  slip "
-          + std::to_string(sum.slip) + "  N = " + short_number(sum.normal)
-          + "  T = " + short_number(sum.friction()));
+              + "  stick " + std::to_string(sum.stick) + "  slip "
+              + std::to_string(sum.slip) + "  N = " + short_number(sum.normal)
+              + "  T = " + short_number(sum.friction()),
+          time / load_options.end_time);
     }
 
     void ChainScene::fill_summary(Report &report, const ChainSteps &steps,
@@ -455,8 +461,8 @@ namespace abut::app
         }
         steps.reject();
         if (load_steps.reject())
-          report.progress("load step cut back to time "
-                          + short_number(load_steps.target(), 6) + ": " + why);
+          report.detail("load step cut back to time "
+                        + short_number(load_steps.target(), 6) + ": " + why);
         else
           failure = why;
       }

@@ -7,6 +7,7 @@
 #include "app/report/json.h"
 #include "app/restart/disk.h"
 #include "app/scenes/method_effects.h"
+#include "app/scenes/method_words.h"
 #include "app/scenes/time_parameters.h"
 #include "motion.h"
 #include "motion_record.h"
@@ -426,6 +427,11 @@ namespace abut::app
       report.set("discretisation", row.is_bar ? "bar" : "masses");
       report.set("dofs", system.size());
       report.set("constraints", system.candidates.size());
+      report.print(
+          "  " + (row.is_bar ? "a bar" : counted(row.n, "mass", "masses"))
+          + ", " + counted(system.size(), "unknown", "unknowns")
+          + "; in time by "
+          + time.scheme.name + ", " + std::to_string(n_steps()) + " steps");
       report.model("search", false, "the masses and their plane are given");
       report.model("time", true,
                    std::string(time.scheme.name) + ", mass " + masses[mass_kind]
@@ -467,7 +473,7 @@ namespace abut::app
         if (!record.add(report, motion, now))
           return false;
         if (k * std::size_t(20) / n != (k - 1) * std::size_t(20) / n)
-          report.progress(record.line(k, n));
+          report.progress(record.line(k, n), double(k) / n);
         before = after;
       }
       return record.judge_end(report);

@@ -10,6 +10,7 @@
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/method_effects.h"
+#include "app/scenes/method_words.h"
 #include "point_mass_model.h"
 #include "point_mass_pictures.h"
 
@@ -255,6 +256,9 @@ namespace abut::app
       report.set("discretisation", "point mass");
       report.set("dofs", model.n());
       report.set("constraints", model.rows.size());
+      report.print("  " + counted(model.n(), "unknown", "unknowns") + ", "
+                   + counted(model.rows.size(), "constraint", "constraints")
+                   + "; " + law_in_words(method));
       report.model("search", false, "the constraints are given");
       report.model("friction", false, "not part of this scene");
       report.model("linear solver", true,

@@ -45,12 +45,11 @@ namespace abut::app
       report.set(name + "_area", s.area);
       report.set(name + "_facet_sizes",
                  std::vector<double>{s.smallest, s.median, s.largest});
-      report.progress(name + ": " + side.arrays.origin + ", "
-                      + std::to_string(side.arrays.n_nodes()) + " nodes, "
-                      + std::to_string(side.arrays.n_facets()) + " "
-                      + abut_facet_name(side.arrays.kind) + " facets of size "
-                      + short_text(s.smallest) + " to "
-                      + short_text(s.largest));
+      report.print("  " + name + ": " + side.arrays.origin + ", "
+                   + std::to_string(side.arrays.n_nodes()) + " nodes, "
+                   + std::to_string(side.arrays.n_facets()) + " "
+                   + abut_facet_name(side.arrays.kind) + " facets of size "
+                   + short_text(s.smallest) + " to " + short_text(s.largest));
     };
     sizes("secondary", secondary);
     if (&other != &secondary)

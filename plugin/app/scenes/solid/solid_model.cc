@@ -9,6 +9,7 @@
 #include "app/pictures/contact_output.h"
 #include "app/pictures/outline.h"
 #include "app/restart/archive.h"
+#include "app/scenes/method_words.h"
 #include "shim/bodies.h"
 #include "solid_report.h"
 
@@ -389,6 +390,19 @@ namespace abut::app
     return "";
   }
 
+  template <int dim>
+  std::vector<std::string> SolidModel<dim>::rigid_motions() const
+  {
+    std::vector<std::string> lines;
+    for (unsigned int k = 0; k < parts.size(); ++k)
+      lines.push_back(parts[k].name() + ": "
+                      + (freedom[k].n_modes == 0
+                             ? "its supports leave no rigid motion"
+                             : "its supports leave " + freedom[k].description
+                                   + ", which contact must support"));
+    return lines;
+  }
+
   template <int dim> bool SolidModel<dim>::tells_friction_apart() const
   {
     return pairs->has_friction()
@@ -597,10 +611,46 @@ namespace abut::app
   template <int dim>
   std::string SolidModel<dim>::line_of(const ContactResult &result) const
   {
-    return "time " + short_number(result.time, 6) + ", level "
-           + std::to_string(result.level) + ": " + std::to_string(result.dofs)
-           + " unknowns, " + std::to_string(result.linear.n_iterations)
-           + " linear iterations, energy " + short_number(result.energy, 8);
+    const bool has_steps = parameters.load_steps.steps > 1;
+    return (has_steps ? "time " + short_number(result.time, 6) + ", " : "")
+           + "mesh " + std::to_string(result.level) + ": "
+           + std::to_string(result.dofs) + " unknowns, "
+           + (has_contact()
+                  ? std::to_string(result.active) + " points in contact, "
+                  : "")
+           + (result.linear.n_iterations > 0
+                  ? std::to_string(result.linear.n_iterations)
+                        + " linear iterations, "
+                  : "")
+           + "energy " + short_number(result.energy, 8);
+  }
+
+  template <int dim> std::string SolidModel<dim>::description() const
+  {
+    std::string text = counted(bodies.size(), "body", "bodies");
+    if (!parameters.obstacles.empty())
+      text += ", "
+              + counted(parameters.obstacles.size(), "rigid obstacle",
+                        "rigid obstacles");
+    if (has_contact())
+    {
+      text += ", "
+              + counted(pairs->pairs().size(), "contact pair", "contact pairs")
+              + "; " + law_in_words(run.method) + ", "
+              + (run.method.discretisation
+                     ? discretisation_name(run.method.discretisation)
+                     : "automatic discretisation");
+      if (pairs->has_friction())
+        text += ", friction";
+      if (has_large_strain() || motion)
+        text += ", kinematics "
+                + std::string(kinematics_info(run.method.kinematics).name);
+    }
+    if (has_large_strain())
+      text += ", large strain";
+    if (motion)
+      text += std::string(", in time by ") + parameters.time.scheme.name;
+    return text;
   }
 
   template <int dim> void SolidModel<dim>::report_check()

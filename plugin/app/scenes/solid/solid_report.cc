@@ -28,6 +28,8 @@ namespace abut::app
 
   namespace
   {
+    constexpr const char *plane_names[] = {"strain", "stress", "axisymmetric"};
+
     /** Part of the normal force that friction carries where it counts. */
     constexpr double visible_friction = 1e-3;
 
@@ -91,13 +93,20 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::check() const
   {
+    for (const BoundaryPart<dim> &part :
+         boundary_parts(model.triangulation, communicator))
+      report.print("  " + bodies.name(part.id) + ": " + in_words(part));
+    if (!model.motion)
+      for (const std::string &line : model.rigid_motions())
+        report.print("  " + line);
+    for (const RigidObstacleParameters &obstacle : parameters.obstacles)
+      report.print("  obstacle " + obstacle.section.substr(9) + ": "
+                   + obstacle.kind
+                   + (obstacle.free.empty() ? "" : ", driven by forces"));
     if (!pairs.empty())
       report_checks();
     report_shares();
     report.set("bodies", bodies.size());
-    for (const BoundaryPart<dim> &part :
-         boundary_parts(model.triangulation, communicator))
-      report.progress(bodies.name(part.id) + ": " + in_words(part));
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
@@ -177,13 +186,23 @@ namespace abut::app
       report.set(key + "_reversed", check.n_reversed);
       // A run moves bodies without supports across clearances.
       const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
+      report.print(
+          "  pair " + std::to_string(number) + ": " + sides_of(pair) + ", "
+          + std::to_string(check.secondary_facets) + " facets"
+          + (pair.obstacle ? "" : " on " + std::to_string(check.primary_facets))
+          + (dim == 2 ? ", length " : ", area ") + short_number(check.area, 6)
+          + ", of which " + short_number(check.covered_area, 6)
+          + " has a partner"
+          + (check.overlap > 0.
+                 ? ", initial overlap " + short_number(check.overlap, 3)
+                 : ""));
       const bool may_come = pair.holds_body && pair.obstacle;
       for (const Message &warning : check.warnings)
         if (may_come && warning.failure == ABUT_FAILURE_NO_PARTNER)
-          report.progress(check.name
-                          + ": not within reach of the obstacle; a run "
-                            "moves the body, which has no supports that way, "
-                            "to where forces press it.");
+          report.print("  " + check.name
+                       + ": not within reach of the obstacle; a run "
+                         "moves the body, which has no supports that way, "
+                         "to where forces press it.");
         else
           report.warn(about(check.name, warning));
     }
@@ -258,6 +277,32 @@ namespace abut::app
   }
 
   template <int dim>
+  std::string SolidReport<dim>::sides_of(const ContactPair<dim> &pair) const
+  {
+    const auto bodies_of =
+        [&](const std::set<dealii::types::boundary_id> &surface)
+    {
+      std::set<unsigned int> numbers;
+      for (const auto id : surface)
+        numbers.insert(bodies.body_of(id));
+      std::string text;
+      for (const unsigned int body : numbers)
+        text += (text.empty() ? "" : " and ") + bodies.name_of_body(body);
+      return text;
+    };
+    const std::string secondary = bodies_of(pair.secondary);
+    if (pair.obstacle)
+    {
+      const std::size_t index = &pair - pairs.pairs().data();
+      return secondary + " on obstacle "
+             + std::to_string(parameters.pairs.at(index).obstacle);
+    }
+    return secondary + (pair.tied ? " tied to " : " on ")
+           + (pair.secondary == pair.primary ? "itself"
+                                             : bodies_of(pair.primary));
+  }
+
+  template <int dim>
   std::pair<double, double> SolidReport<dim>::report_pairs() const
   {
     unsigned int number = 0;
@@ -267,6 +312,7 @@ namespace abut::app
     for (const PairResult<dim> &pair : contact.results().pairs())
     {
       const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_sides", sides_of(pairs.pairs().at(number - 1)));
       const bool has_friction =
           pairs.pairs().at(number - 1).friction != nullptr;
       for (const PairMeasure<dim> &measure : pair_measures<dim>())
@@ -449,6 +495,8 @@ namespace abut::app
     SectionTimes::Scope scope(report.times, "results");
     report.set("converged", converged);
     report.set("bodies", bodies.size());
+    if (dim == 2)
+      report.set("plane", plane_names[static_cast<int>(parameters.plane)]);
     report.set("load_steps", run.load_steps.n_accepted());
     report.set("load_steps_cut_back", run.load_steps.n_rejected());
     if (run.results.empty())
@@ -474,8 +522,11 @@ namespace abut::app
     if (last.estimate && last.errors)
       report.set("effectivity", *last.estimate / *last.errors->energy);
     if (!std::isnan(parameters.exact_energy))
+    {
       report.set("energy_error",
                  std::abs(last.energy - parameters.exact_energy));
+      report.expect("energy", parameters.exact_energy);
+    }
     if (run.control.is_on())
       run.control.report(report, relative_error());
     report_points();
