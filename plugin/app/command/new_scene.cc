@@ -3,6 +3,7 @@
 
 #include "app/input/input_error.h"
 #include "app/restart/disk.h"
+#include "scene_templates.h"
 
 #include <abut/dealii/nearest_word.h>
 
@@ -10,30 +11,17 @@
 
 namespace abut::app
 {
-  namespace
-  {
-    struct Template
-    {
-      const char *kind;
-      const char *text;
-    };
-
-    constexpr Template templates[] = {
-#include "scene_templates.inc"
-    };
-  } // namespace
-
   std::filesystem::path write_new_scene(const std::string &kind,
                                         const std::filesystem::path &given)
   {
     std::vector<std::string> kinds;
     std::string list;
-    for (const Template &each : templates)
+    for (const SceneTemplate &each : scene_templates())
     {
       kinds.emplace_back(each.kind);
       list += (list.empty() ? "" : ", ") + kinds.back();
     }
-    for (const Template &each : templates)
+    for (const SceneTemplate &each : scene_templates())
       if (kind == each.kind)
       {
         const std::filesystem::path file =

@@ -310,6 +310,8 @@ namespace abut::app
       if (const auto *vector = std::get_if<std::vector<double>>(&value);
           vector != nullptr && vector->size() > 3)
         return;
+      if (key == "active" && report.number("constraints") == 0.)
+        return;
       if (key == "active")
         text += " of " + short_text_of(report.get("constraints"));
       figures.add({label_of(key), text});

@@ -463,7 +463,8 @@ namespace abut::app
       report.set("constraints", system.candidates.size());
       report.print(
           "  " + (row.is_bar ? "a bar" : counted(row.n, "mass", "masses"))
-          + ", " + std::to_string(system.size()) + " unknowns; in time by "
+          + ", " + counted(system.size(), "unknown", "unknowns")
+          + "; in time by "
           + time.scheme.name + ", " + std::to_string(n_steps()) + " steps");
       report.model("search", false, "the masses and their plane are given");
       report.model("time", true,
