@@ -9,7 +9,7 @@ from . import geometry, style
 from .labels import label
 from .vtu import read_mesh
 
-MOST_EDGES = 8000   # more are not seen
+MOST_EDGES = 1500   # more make the file large
 MOST_FACES = 20000  # in space
 STATES = ((1, "sticks", style.STICK), (2, "slips", style.SLIP),
           (0, "open", style.GREY))
@@ -285,7 +285,8 @@ def _tractions(run, curves, width):
 
 def _in_space(mesh, contact, obstacles, width):
     factor = geometry.exaggeration(mesh, mesh.fields["displacement"])
-    n = 1 if contact is None else 2
+    pressed = [] if contact is None else _secondary_faces(contact)
+    n = 2 if pressed else 1
     figure = style.pyplot.figure(figsize=(width * style.MM,
                                           width * 0.52 * style.MM))
     axes = [figure.add_subplot(1, n, i + 1, projection="3d") for i in range(n)]
@@ -295,11 +296,7 @@ def _in_space(mesh, contact, obstacles, width):
                 label("von_mises_stress"), "von_mises_stress")
     title = f"displacement drawn {factor:g} times" if factor > 1 else ""
     axes[0].set_title(title)
-    if contact is not None:
-        gap = contact.fields["gap"]
-        pressed = [cell[[0, 1, 2, 3] if len(cell) in (4, 9) else [0, 1, 2]]
-                   for cell in contact.cells
-                   if not numpy.isnan(gap[cell]).any()]
+    if pressed:
         _draw_faces(figure, axes[1], _moved(contact, factor), pressed,
                     contact.fields["pressure"].astype(float),
                     label("pressure"), "pressure")
@@ -312,6 +309,14 @@ def _in_space(mesh, contact, obstacles, width):
                 style.ticker.MaxNLocator(4))
             getattr(axis, f"{name}axis").pane.set_facecolor("white")
     return figure
+
+
+def _secondary_faces(contact):
+    """Corners of the faces with constraints at some of them."""
+    corners = [cell[:3] if kind in geometry.TRIANGLE else cell[:4]
+               for kind, cell in zip(contact.types, contact.cells)]
+    return [face for face in corners
+            if not numpy.isnan(contact.fields["gap"][face]).all()]
 
 
 def _brightness(corners):

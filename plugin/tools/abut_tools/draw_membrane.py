@@ -55,7 +55,7 @@ def _displacement(mesh, title, width):
     norm = colors.Normalize(values.min(), values.max())
     side.plot_surface(*grid, surface, rstride=1, cstride=1, linewidth=0.15,
                       edgecolor="#ffffff30", cmap=style.FIELD_MAP, norm=norm,
-                      antialiased=True)
+                      antialiased=True, rasterized=True)
     side.view_init(28, -50)
     side.set_box_aspect((1, aspect, 0.55), zoom=0.9)
     side.set_xlabel("$x$ [length]", labelpad=-4)
@@ -70,8 +70,11 @@ def _displacement(mesh, title, width):
                                       cmap=style.FIELD_MAP, norm=norm,
                                       rasterized=True), "displacement")
     if numpy.ptp(values) > 0:
-        top.tricontour(mesh_of, values, 10, colors="white", linewidths=0.4,
-                       alpha=0.7)
+        levels = top.tricontour(mesh_of, values, 10, colors="white",
+                                linewidths=0.4, alpha=0.7)
+        # Matplotlib before 3.8 has an artist for each level.
+        for level in getattr(levels, "collections", [levels]):
+            level.set_rasterized(True)
     bar = figure.colorbar(field, ax=top, aspect=30)
     bar.set_label(label("displacement"))
     style.plane_map(top)

@@ -107,6 +107,9 @@ def _one_node(run, width):
 
     def draw(mesh, chosen_facets, name, **look):
         corners = [drawn(mesh.points[f]) for f in chosen_facets]
+        corners = [c for c in corners
+                   if (c.max(axis=0) >= drawn(low)).all()
+                   and (c.min(axis=0) <= drawn(high)).all()]
         if is_plane:
             look["colors"] = look.pop("edgecolors")
             look.pop("facecolors", None)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One look for all pictures: colours that every kind of colour vision tells
-apart, markers and dashes beside them, fonts of 8 pt, and widths of a column or
-a page. Equal data give equal files."""
+"""One look for all pictures: colours for every kind of colour vision, markers and
+dashes with them, fonts of 8 pt, and widths of a column or a page. Equal data give
+equal files."""
 import itertools
 import math
 import re
@@ -185,7 +185,9 @@ def letters(all_axes):
 def save(of_figure, folder, name):
     """Write NAME.svg and NAME.png; returns the paths. The figure is closed."""
     paths = [folder / f"{name}.svg", folder / f"{name}.png"]
-    of_figure.savefig(paths[0], metadata={"Date": None, "Creator": None})
+    # Fields are images in it, which grow with their resolution.
+    of_figure.savefig(paths[0], dpi=110,
+                      metadata={"Date": None, "Creator": None})
     of_figure.savefig(paths[1], metadata={"Software": None})
     pyplot.close(of_figure)
     return paths
