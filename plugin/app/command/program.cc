@@ -181,6 +181,10 @@ namespace abut::app
       report.check_expected();
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
+      // Of warnings about pictures the summary shall know, too.
+      if (options.pictures && is_root(communicator)
+          && !draw_run(report, options.output_folder))
+        report.write(options.output_folder);
       if (restart)
         restart->finish();
       report.print_summary();

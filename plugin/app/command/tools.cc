@@ -102,14 +102,14 @@ namespace abut::app
     {
       const bool well = start({"draw", folder.string(), "--quiet"}, log).well();
       std::istringstream said(read_from_disk(log));
-      std::string line;
-      while (std::getline(said, line))
+      std::string last;
+      for (std::string line; std::getline(said, line); last = line)
         if (well)
           warn(without(line, "abut: warning: "));
       if (well)
         fs::remove(log);
       else
-        warn("the pictures were not drawn: " + without(line, "abut: error: ")
+        warn("the pictures were not drawn: " + without(last, "abut: error: ")
              + " (see " + log.string() + ")");
     }
     catch (const std::exception &error)

@@ -119,7 +119,8 @@ namespace abut::app
     prm.enter_subsection("Output");
     parameter::declare(prm, "Pictures", "false", Patterns::Bool(),
                        parameter::advanced(),
-                       "Whether pictures (SVG) are drawn with gnuplot.");
+                       "Whether pictures (SVG and PNG) are drawn at the end "
+                       "(`abut draw`). Needs Python with Matplotlib.");
     parameter::declare(prm, "Report", "false", Patterns::Bool(),
                        parameter::basic(),
                        "Whether a page about the run, report.html, is written "

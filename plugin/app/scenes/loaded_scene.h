@@ -7,6 +7,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>

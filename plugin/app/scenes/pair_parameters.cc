@@ -70,6 +70,21 @@ namespace abut::app
         "Distance within which the surfaces are paired. auto: half a facet; "
         "more if the surfaces move farther, or if nothing nearer stops a body "
         "without supports.");
+    parameter::declare(prm, "Closed form", "", TextPattern("a name"),
+                       parameter::advanced("", "Hertz"),
+                       "Name of the exact solution that pictures of a plane "
+                       "scene show beside the computed tractions.");
+    parameter::declare(
+        prm, "Closed form of pressure", "", TextPattern::formula(),
+        parameter::advanced("force/length^2", "2*Fy/pi*sqrt(1 - x^2)"),
+        "Exact pressure at the points of the secondary surface: a formula in "
+        "x, y, t and the forces of the run on the secondary surface, Fx and Fy "
+        "in all, Qx and Qy of friction. Empty: none.");
+    parameter::declare(
+        prm, "Closed form of friction", "", TextPattern::formula(),
+        parameter::advanced("force/length^2", "0.3*sqrt(1 - x^2)"),
+        "Exact traction along the secondary surface, a formula like `Closed "
+        "form of pressure`. Empty: none.");
     prm.leave_subsection();
   }
 
@@ -86,6 +101,9 @@ namespace abut::app
     gap = prm.get("Initial gap");
     friction = prm.get("Friction");
     friction_cap = prm.get("Largest friction");
+    closed_form = prm.get("Closed form");
+    closed_pressure = prm.get("Closed form of pressure");
+    closed_friction = prm.get("Closed form of friction");
     mesh_gap = prm.get_bool("Use mesh gap");
     tied = prm.get_bool("Tied");
     reach = parameter::number_or_zero(prm, "Reach");
