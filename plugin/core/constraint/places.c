@@ -205,14 +205,15 @@ abut_points_append_place(abut_points *points, const abut_place *place)
     return status;
   abut_places *p = abut_points_places(points);
   if (place == NULL)
-    return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call, "place is NULL");
+    return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call,
+                     "the argument is NULL");
   abut_place taken = abut_place_defaults();
   status = abut_copy_in(p->context, call, &taken, sizeof(taken), place);
   if (status != ABUT_SUCCESS)
     return status;
   if (p->n >= v.n_points)
     return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call,
-                     "all points have a place");
+                     "no point is left without pair and position");
   if (taken.pair < 0 || taken.node < -1 || taken.facet < -1 || taken.n_lines < 0
       || taken.n_columns < 0 || taken.position == NULL
       || (taken.n_lines > 0 && taken.line == NULL)
@@ -234,7 +235,7 @@ abut_points_get_places_sized(const abut_points *points, abut_places_view *view)
     return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call, "view is NULL");
   if (p->n != abut_points_n(points))
     return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call,
-                     "points have no places");
+                     "points have no pair and position");
   const abut_places_view made = {sizeof(abut_places_view),
                                  p->n,
                                  p->n_pairs,

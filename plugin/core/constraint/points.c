@@ -489,7 +489,7 @@ abut_points_renumber(abut_points *points, int32_t n_nodes,
                        "a new number is negative");
   if (!abut_places_renumber(&points->places, n_nodes, number))
     return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
-                     "a node of a place has no new number");
+                     "a node that a point refers to has no new number");
   for (int64_t e = 0; e < n; ++e)
     node[e] = number[node[e]];
   return ABUT_SUCCESS;

@@ -352,7 +352,7 @@ abut_obstacle_passes_facets(abut_obstacle *obstacle, abut_surface *surface,
     return status;
   if (way == NULL || (w.view->n_nodes > 0 && from == NULL))
     return abut_fail(w.context, ABUT_INVALID_ARGUMENT, call,
-                     "begin or way is NULL");
+                     "positions or the result are NULL");
   *way = 0.;
   for (int32_t f = 0; f < w.view->n_facets && status == ABUT_SUCCESS; ++f)
     if (is_wanted(&w, f))

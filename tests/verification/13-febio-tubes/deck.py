@@ -34,7 +34,8 @@ facets with a penalty. Abut has nodes of the second tube, or points of quadratur
 difference of co20 and co47, which are one problem with two methods.
 """
 REMARKS = r"""
-With co13, mortar has 148.3702 and points of quadrature with a penalty 148.3310. With the thin tubes of co15 without friction, nodes and
+With co13, mortar has 148.3702 and points of quadrature with a penalty 148.3310. Dual mortar ends with exit code 3 (F46) at $t = 0.05$: two points are
+in contact in every other linearisation, one in the others. With the thin tubes of co15 without friction, nodes and
 mortar end with exit code 3 (F46) at $t = 0.88$ and $t = 0.44$, as the wall folds along its edges. 
 Not reached: `co36.feb`, a hollow sphere under its weight in a rigid one (value 2.01168, augmented to 0.05). Tried on a quarter with the inside
 of the shell as an obstacle of facets, multipliers and augmented Lagrangian, 10 and 40 load steps. Newton's method ends with exit code 3 (F46) at
