@@ -258,7 +258,7 @@ namespace abut::app
              + short_number(result.energy, 8);
     return "mesh " + std::to_string(result.level) + ": "
            + std::to_string(result.dofs) + " unknowns, "
-           + std::to_string(result.active) + " points in contact, "
+           + counted(result.active, "point", "points") + " in contact, "
            + std::to_string(result.steps) + " active set iterations, energy "
            + short_number(result.energy, 8);
   }

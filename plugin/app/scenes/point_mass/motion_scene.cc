@@ -461,11 +461,11 @@ namespace abut::app
       report.set("discretisation", row.is_bar ? "bar" : "masses");
       report.set("dofs", system.size());
       report.set("constraints", system.candidates.size());
-      report.print(
-          "  " + (row.is_bar ? "a bar" : counted(row.n, "mass", "masses"))
-          + ", " + counted(system.size(), "unknown", "unknowns")
-          + "; in time by "
-          + time.scheme.name + ", " + std::to_string(n_steps()) + " steps");
+      report.print("  "
+                   + (row.is_bar ? "a bar" : counted(row.n, "mass", "masses"))
+                   + ", " + counted(system.size(), "unknown", "unknowns")
+                   + "; in time by " + time.scheme.name + ", "
+                   + std::to_string(n_steps()) + " steps");
       report.model("search", false, "the masses and their plane are given");
       report.model("time", true,
                    std::string(time.scheme.name) + ", mass " + masses[mass_kind]

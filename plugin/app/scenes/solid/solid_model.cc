@@ -616,7 +616,7 @@ namespace abut::app
            + "mesh " + std::to_string(result.level) + ": "
            + std::to_string(result.dofs) + " unknowns, "
            + (has_contact()
-                  ? std::to_string(result.active) + " points in contact, "
+                  ? counted(result.active, "point", "points") + " in contact, "
                   : "")
            + (result.linear.n_iterations > 0
                   ? std::to_string(result.linear.n_iterations)
