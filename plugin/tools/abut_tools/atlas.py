@@ -59,11 +59,11 @@ def run_scene(program, entry, scene, folder, value=None, fields=False):
     messages = [line[len(MARK):] for line in log.read_text().splitlines()
                 if line.startswith(MARK)]
     figures = RunFigures(folder)
-    # The failure of an error, which ends a run before it has a summary.
-    of_error = read_json(folder / "run.json").get("code")
+    # An error ends a run before it has a summary.
+    error = read_json(folder / "run.json").get("error", "")
     return AtlasRun(ending.code, figures, messages,
                     {*figures.summary.get("codes", ()),
-                     *filter(None, [of_error])})
+                     *re.findall(r"ABUT-F\d\d", error)})
 
 
 def check_run(scene, run, other):

@@ -29,15 +29,21 @@ def first_picture(folder):
     return Image.open(data).convert("RGB")
 
 
+def empty_picture(size, font):
+    image = Image.new("RGB", size, "white")
+    ImageDraw.Draw(image).text((size[0] // 2, size[1] // 2),
+                               "no fields were written", style.GREY, font, "mm")
+    return image
+
+
 def draw_pair(folders, titles, path):
     """Draw two runs into a PNG; False where there is nothing to draw."""
     images = [first_picture(folder) for folder in folders]
     drawn = [image for image in images if image]
     if not drawn:
         return False
-    images = [image or Image.new("RGB", drawn[0].size, "white")
-              for image in images]
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), DPI // 8)
+    images = [image or empty_picture(drawn[0].size, font) for image in images]
     strip = DPI // 5
     pair = Image.new("RGB", (sum(image.width for image in images),
                              strip + max(image.height for image in images)),
