@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Estimator, error norms, energy, rasters, field files and pictures.
+// Estimator, error norms, energy and field files.
 
 #include "app/adapt/estimator.h"
 #include "app/input/expression.h"
 #include "app/physics/error_norms.h"
 #include "app/pictures/field_output.h"
-#include "app/pictures/picture_parts.h"
-#include "app/pictures/pictures.h"
-#include "app/pictures/raster.h"
-#include "app/pictures/zero_line.h"
-#include "app/report/report.h"
 
 #include "expect.h"
 #include "problem.h"
@@ -215,57 +210,6 @@ namespace
         });
   }
 
-  void rasters()
-  {
-    Problem<2> problem(1);
-    unit_cube(problem, 2);
-    dealii::GridTools::transform(
-        [](const Point<2> &x)
-        { return Point<2>(2 * x[0] + 0.3 * x[0] * x[1], x[1]); },
-        problem.mesh);
-    const la::Vector u = problem.interpolate("3*x - y");
-    const la::Vector kind = problem.interpolate("if(y < 0.4, 1, 2)");
-    const Raster raster = sample_raster(problem.mapping, problem.dof_handler,
-                                        {{&u}, {&kind, true}}, 46);
-    Expect::that(raster.nx == 46 && raster.ny == 20, "size of the raster");
-    Expect::near(raster.x_max, 2.3, 1e-13, "bounding box");
-    double worst = 0;
-    bool inside = true;
-    bool kinds = true;
-    for (std::size_t j = 0; j < raster.ny; ++j)
-      for (std::size_t i = 0; i < raster.nx; ++i)
-      {
-        const double value = raster.fields[0][j * raster.nx + i];
-        const double x = raster.x(i);
-        const double y = raster.y(j);
-        const bool in = x < 2 + 0.3 * y;
-        if (std::abs(x - 2 - 0.3 * y) > 1e-6)
-          inside = inside && in == !std::isnan(value);
-        if (std::isnan(value))
-          continue;
-        worst = std::max(worst, std::abs(value - (3 * x - y)));
-        // nodes at 0.25 and 0.5: the border lies half-way
-        if (std::abs(y - 0.375) > 1e-6)
-          kinds =
-              kinds
-              && raster.fields[1][j * raster.nx + i] == (y < 0.375 ? 1. : 2.);
-      }
-    Expect::near(worst, 0, 1e-12, "linear function on the raster");
-    Expect::that(inside, "outside is not a number");
-    Expect::that(kinds, "nearest nodes");
-
-    Problem<3> cube(2);
-    unit_cube(cube, 1);
-    const la::Vector v = cube.interpolate("x*y + z^2");
-    const Raster middle =
-        sample_raster(cube.mapping, cube.dof_handler, {{&v}}, 10);
-    Expect::near(middle.z, 0.5, 0, "plane");
-    Expect::near(middle.fields[0][23], 0.35 * 0.25 + 0.25, 1e-13, "3D");
-    const Raster top =
-        sample_raster(cube.mapping, cube.dof_handler, {{&v}}, 10, 0.9);
-    Expect::near(top.fields[0][23], 0.35 * 0.25 + 0.81, 1e-13, "3D, top");
-  }
-
   std::string content(const std::filesystem::path &file)
   {
     std::ifstream in(file, std::ios::binary);
@@ -304,121 +248,6 @@ namespace
                      > 1000,
                  "data file");
   }
-
-  void pictures()
-  {
-    Problem<2> problem(1);
-    dealii::GridGenerator::hyper_cube(problem.mesh, -1.5, 1.5);
-    problem.mesh.refine_global(5);
-    problem.distribute();
-    const la::Vector u = problem.interpolate(
-        "if(x^2+y^2 > 1, (x^2+y^2-1)/2 - log(x^2+y^2)/2, 0)");
-    const la::Vector status = problem.interpolate("if(x^2+y^2 > 1, 0, 1)");
-    const Raster raster = sample_raster(problem.mapping, problem.dof_handler,
-                                        {{&u}, {&status, true}}, 200);
-    Report report(MPI_COMM_WORLD, Verbosity::quiet);
-    const bool root =
-        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    Expect::that(draw_solution(report, folder, "solution", raster, 0,
-                               "Membrane's height")
-                     || !root,
-                 "solution is drawn");
-    draw_status(report, folder, "active", raster, 1,
-                {{2, "none"}, {0, "open"}, {1, "contact"}}, "Active set");
-    draw_convergence(
-        report, folder, "convergence",
-        {{"L2 error", {{100, 1e-1}, {400, 2.5e-2}, {1600, 6e-3}, {6400, 0}}},
-         {"H1 error", {{100, 1}, {400, 0.5}, {1600, 0.25}, {6400, 0.125}}}},
-        {{"active-set steps", {{100, 3}, {400, 4}, {1600, 3}, {6400, 4}}}},
-        "Convergence");
-    // a mesh that leaves part of its bounding box free
-    Problem<2> disc(1);
-    dealii::GridGenerator::hyper_ball(disc.mesh);
-    disc.mesh.refine_global(4);
-    disc.distribute();
-    const la::Vector cap = disc.interpolate("1 - x^2 - y^2");
-    const Raster round = sample_raster(disc.mapping, disc.dof_handler,
-                                       {{&cap}, {&cap, true}}, 160);
-    Expect::that(std::isnan(round.fields[0][0]), "the corner is free");
-    Expect::that(draw_solution(report, folder, "disc", round, 0, "Disc")
-                     || !root,
-                 "disc is drawn");
-    Expect::that(draw_status(report, folder, "disc-status", round, 1,
-                             {{0, "low"}, {1, "high"}}, "Disc")
-                     || !root,
-                 "status of the disc is drawn");
-
-    MPI_Barrier(MPI_COMM_WORLD);
-    for (const char *name :
-         {"solution", "active", "convergence", "disc", "disc-status"})
-    {
-      const std::string svg = content(folder / (std::string(name) + ".svg"));
-      Expect::that(svg.find("</svg>") != std::string::npos,
-                   std::string(name) + ".svg is complete");
-      Expect::that(svg.size() < 300000, std::string(name) + ".svg is small: "
-                                            + std::to_string(svg.size()));
-    }
-    Expect::that(content(folder / "convergence.svg").find("slope -0.50")
-                     != std::string::npos,
-                 "slope of the H1 error");
-  }
-
-  /** The number that stands behind a word of a script. */
-  double number_after(const std::string &script, const std::string &word)
-  {
-    const std::size_t place = script.find(word);
-    return place == std::string::npos
-               ? std::nan("")
-               : std::stod(script.substr(place + word.size()));
-  }
-
-  void axes()
-  {
-    // whole numbers: whole ticks, and a range a little wider than they are
-    const std::string levels = fitted_axis('x', {4, 2, 3}, false);
-    Expect::that(levels.find("set xtics 1\n") != std::string::npos, levels);
-    Expect::near(number_after(levels, "xrange ["), 1.92, 1e-12, "left end");
-    Expect::that(fitted_axis('x', {0, 1000}, false).find("xtics 100\n")
-                     != std::string::npos,
-                 "ticks at hundreds");
-    Expect::that(fitted_axis('x', {0.5, 2}, false).find("xtics autofreq")
-                     != std::string::npos,
-                 "ticks of other numbers");
-    // logarithmic: not up to the next power of ten, zeros left out
-    const std::string errors =
-        fitted_axis('y', {0.02, 0, std::nan(""), 0.2}, true);
-    Expect::near(number_after(errors, "yrange ["), 0.02 / std::pow(10., 0.04),
-                 1e-9, "lower end");
-    Expect::that(errors.find("set ytics (0.02, 0.05, 0.1, 0.2)")
-                     != std::string::npos,
-                 errors);
-    Expect::that(fitted_axis('y', {1, 1.1}, true).find("ytics (1, 1.05, 1.1)")
-                     != std::string::npos,
-                 "ticks of a short axis: " + fitted_axis('y', {1, 1.1}, true));
-    Expect::that(fitted_axis('y', {0, -1}, true).empty(), "nothing to show");
-  }
-
-  /** The circle x^2 + y^2 = 1, to the second order of the grid. */
-  void round_line()
-  {
-    Raster frame;
-    frame.x_min = frame.y_min = -2;
-    frame.x_max = frame.y_max = 2;
-    const auto rows =
-        zero_line(frame, 81, [](const Point<2> &x) { return x.norm() - 1.; });
-    double length = 0.;
-    for (std::size_t i = 0; i < rows.size(); i += 3)
-    {
-      const Point<2> a(rows[i][0], rows[i][1]),
-          b(rows[i + 1][0], rows[i + 1][1]);
-      Expect::near(a.norm(), 1., 2e-3, "on the circle");
-      length += a.distance(b);
-    }
-    Expect::near(length, 2 * 3.14159265, 0.01, "length of the circle");
-    Expect::that(
-        zero_line(frame, 11, [](const Point<2> &) { return 1.; }).empty(),
-        "no line");
-  }
 } // namespace
 
 int
@@ -438,10 +267,6 @@ main(int argc, char **argv)
                       effectivity<2>(1, 4);
                       effectivity<2>(2, 3);
                       effectivity<3>(1, 2);
-                      rasters();
                       field_files();
-                      axes();
-                      round_line();
-                      pictures();
                     });
 }
