@@ -8,6 +8,7 @@
  */
 
 #include <abut/condense.h>
+#include <abut/contact_measures.h>
 #include <abut/contact_motion.h>
 #include <abut/context.h>
 #include <abut/coupling.h>
@@ -21,14 +22,19 @@
 #include <abut/friction_points.h>
 #include <abut/gap_raise.h>
 #include <abut/history.h>
+#include <abut/interface.h>
+#include <abut/kinematics.h>
 #include <abut/law.h>
 #include <abut/limits.h>
 #include <abut/missed_contact.h>
 #include <abut/multigrid.h>
 #include <abut/obstacle.h>
 #include <abut/obstacle_edge.h>
+#include <abut/obstacle_facets.h>
 #include <abut/obstacle_surface.h>
+#include <abut/pair_checks.h>
 #include <abut/parts.h>
+#include <abut/places.h>
 #include <abut/points.h>
 #include <abut/projection.h>
 #include <abut/search.h>

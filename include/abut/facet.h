@@ -110,10 +110,11 @@ extern "C"
   X(NONE, "no fault")                                                          \
   X(KIND, "the facet's kind is not known")                                     \
   X(NOT_FINITE, "a coordinate is NaN, infinite or out of range")               \
-  X(COINCIDENT, "two nodes of the facet are at one place")                     \
+  X(COINCIDENT, "two nodes of the facet coincide")                             \
   X(ZERO_AREA, "the facet has no area (or length)")                            \
-  X(FOLDED, "the facet is folded or inverted: its normal turns by more than "  \
-            "90 degrees within it")
+  X(FOLDED,                                                                    \
+    "the facet is folded or inverted: its normal rotates by more than "        \
+    "90 degrees within it")
 
   /** Faults of a facet, in the order in which they are looked for. */
   typedef enum abut_facet_fault

@@ -22,44 +22,46 @@ extern "C"
  * again for something else; gaps belong to failures that cannot occur yet. */
 #define ABUT_FAILURE_LIST(X)                                                   \
   X(BOTH_SIDES, 1, "multipliers on both sides",                                \
-    "let one side of a pair of surfaces carry the rows")                       \
-  X(RICH_MULTIPLIERS, 2, "more multipliers than the surface can bear",         \
+    "let one side of a pair of surfaces carry the constraints")                \
+  X(RICH_MULTIPLIERS, 2, "more multipliers than the surface has unknowns",     \
     "mortar or dual mortar; or penalty, augmented lagrangian or nitsche")      \
   X(TRANSFER, 3, "uniform pressure is not transferred",                        \
     "mortar or dual mortar")                                                   \
   X(CROSSPOINT, 4, "contact meets a support",                                  \
     "hand the share of dropped multipliers to their neighbours")               \
-  X(COVERAGE, 5, "surface partly without a partner",                           \
-    "let the primary surface reach as far as the secondary")                   \
+  X(COVERAGE, 5, "surface partly uncovered",                                   \
+    "make the primary surface as large as the secondary")                      \
   X(PENALTY, 6, "penalty out of range",                                        \
     "leave the penalty to the law, or use augmented lagrangian or lagrange")   \
-  X(MULTIPLIERS_STALL, 7, "method of multipliers does not contract",           \
+  X(MULTIPLIERS_STALL, 7, "method of multipliers does not converge",           \
     "let the penalty adapt itself, or begin with a larger one")                \
   X(CYCLE, 8, "active sets come back",                                         \
-    "leave the fallback to single changes on; interior point")                 \
-  X(COLD_START, 9, "too many steps from a cold start",                         \
+    "fallback to single changes, or interior point")                           \
+  X(COLD_START, 9, "too many active set iterations from a cold start",         \
     "start from the solution on a coarser mesh")                               \
-  X(INFEASIBLE_START, 10, "barrier from inside an obstacle",                   \
-    "interior point, which needs no open start")                               \
+  X(INFEASIBLE_START, 10, "barrier with initial penetration",                  \
+    "interior point, which needs no feasible start")                           \
   X(OVERLAP, 11, "bodies overlap from the start",                              \
     "move the bodies apart, or give the interference as an initial gap")       \
-  X(FLOATING_BODY, 12, "nothing holds a body",                                 \
-    "give the body a support, or press it against something")                  \
+  X(FLOATING_BODY, 12, "a body without supports",                              \
+    "give the body a support, or press it against another body")               \
   X(LOCKING, 16, "elements that are too stiff", "quadratic elements")          \
   X(COARSE_SECONDARY, 19, "secondary surface much coarser than the primary",   \
     "exchange the two sides of the pair")                                      \
   X(DEGENERATE_FACET, 20, "facets without area, or inside out",                \
-    "repair the mesh: each facet once, with corners that differ")              \
+    "repair the mesh: each facet once, with distinct corners")                 \
   X(COARSE_CURVE, 21, "surface too coarse for its curvature",                  \
     "refine it, or leave its corners out of the pair")                         \
-  X(BUCKETS, 22, "buckets far from the size of facets",                        \
-    "leave their size to the search, or use adaptive buckets")                 \
-  X(WRONG_SIDE, 23, "surfaces that face the same way",                         \
-    "take the sides that face each other; turn cells that are inside out")     \
-  X(NO_PARTNER, 24, "surfaces do not find each other",                         \
+  X(BUCKETS, 22, "bucket size far from the size of facets",                    \
+    "Bucket size = auto, or adaptive buckets")                                 \
+  X(WRONG_SIDE, 23, "surfaces that face in the same direction",                \
+    "use the sides that face each other; repair inverted cells")               \
+  X(NO_PARTNER, 24, "surfaces are not paired",                                 \
     "a larger Reach of the pair, or smaller load steps")                       \
-  X(HELD_NODES, 26, "supports hold nodes that contact must move",              \
-    "leave such nodes free along the normal, or move what supports them")      \
+  X(HELD_NODES, 26,                                                            \
+    "prescribed displacements of nodes that contact must move",                \
+    "leave such nodes free along the normal, or change the prescribed "        \
+    "displacement")                                                            \
   X(LINEAR_SOLVER, 30, "linear solver does not converge", "a direct solver")   \
   X(NITSCHE, 31, "Nitsche's parameter too small",                              \
     "leave the penalty to the law, or use the variant with theta = -1")        \
@@ -68,31 +70,31 @@ extern "C"
     "lagrange, or a looser tolerance of the gap")                              \
   X(SINGULAR, 34, "energy converges slowly", "adaptive meshes; smooth data")   \
   X(LARGE_STRAIN, 35, "strains that are not small",                            \
-    "look at the units of loads and stiffness; smaller loads")                 \
-  X(SLIDING, 36, "surfaces slide away from where they met",                    \
-    "smaller motions: contact is that of the undeformed places")               \
+    "check the units of loads and stiffness; smaller loads")                   \
+  X(SLIDING, 36, "surfaces slide too far for small sliding",                   \
+    "Contact geometry = current, or smaller motions")                          \
   X(UNSEEN, 37, "obstacle passes between the nodes",                           \
     "refine the mesh where the obstacle is")                                   \
   X(UNBALANCED, 38, "forces are not in balance",                               \
-    "the residual is internal minus external forces; look at its sign")        \
+    "check the sign of the residual: internal minus external forces")          \
   X(NOT_FINITE, 39, "a number is infinite or none",                            \
-    "look for loads, supports or materials that are not finite")               \
+    "check loads, supports and materials for values that are not finite")      \
   X(STEP_LIMIT, 40, "limit of steps",                                          \
     "allow more steps, start closer to the solution, or another method")       \
-  X(STICK_SLIP, 41, "no state of stick and slip is found",                     \
+  X(STICK_SLIP, 41, "no state of stick and slip found",                        \
     "smaller load steps, or a smaller coefficient of friction")                \
-  X(FREE_SLIDING, 42, "friction does not hold a body",                         \
+  X(FREE_SLIDING, 42, "a body supported by friction slides",                   \
     "give the body a support, or less load along the surface")                 \
-  X(ENERGY_GAIN, 43, "a time scheme makes energy",                             \
+  X(ENERGY_GAIN, 43, "a time scheme gains energy",                             \
     "modified mass with hht, or contact stabilised; smaller time steps")       \
   X(BLOW_UP, 44, "a motion blows up",                                          \
     "time steps below the limit of the scheme, or an implicit scheme")         \
   X(ENERGY_LOSS, 45, "a time scheme loses energy",                             \
     "shorter time steps; a scheme that damps less")                            \
-  X(NEWTON, 46, "Newton's method finds no way",                                \
+  X(NEWTON, 46, "Newton's method does not converge",                           \
     "smaller load steps; a tangent that is the derivative of the residual")    \
   X(PARTNERS, 47, "loaded points lose their facets or jump to others",         \
-    "mortar; ends that are round or not loaded; smaller load steps")
+    "mortar; rounded ends; smaller load steps")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

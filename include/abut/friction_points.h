@@ -4,26 +4,17 @@
 
 /** @file
  * Contact points with friction: forces and work of the pairs that they belong
- * to, and points of several pairs at one node, as in a corner.
+ * to, and points of several pairs at one node, as in a corner. Points have
+ * places (abut/places.h).
  */
 
 #include <abut/export.h>
-#include <abut/points.h>
+#include <abut/places.h>
 
 #ifdef __cplusplus
 extern "C"
 {
 #endif
-
-  /** Nodes and pairs of points. */
-  typedef struct abut_point_places
-  {
-    size_t struct_size;  /**< sizeof(abut_point_places) */
-    int32_t n_nodes;     /**< nodes are below */
-    int32_t n_pairs;     /**< pairs are below */
-    const int32_t *node; /**< [n_points] node of the secondary; -1: at none */
-    const int32_t *pair; /**< [n_points] */
-  } abut_point_places;
 
   /** Sums over the points of a pair, ties left out. */
   typedef struct abut_friction_sums
@@ -41,6 +32,7 @@ extern "C"
 
   /** Sums of each pair.
    *
+   * @param n_pairs the pairs of all points are below
    * @param value [n_components] pressures, and tractions on the secondary
    * @param slip [n_components] slips of tangents, length
    * @param state [n_components] abut_state of the normals; NULL: no point is
@@ -48,12 +40,9 @@ extern "C"
    * @param sums out, [n_pairs]
    *
    * O(components). */
-  ABUT_API abut_status abut_points_friction(const abut_points *points,
-                                            const abut_point_places *places,
-                                            const double *value,
-                                            const double *slip,
-                                            const uint8_t *state,
-                                            abut_friction_sums *sums);
+  ABUT_API abut_status abut_points_friction(
+      const abut_points *points, int32_t n_pairs, const double *value,
+      const double *slip, const uint8_t *state, abut_friction_sums *sums);
 
   /** Properties of a pair, bits. */
   typedef enum abut_pair_mark
@@ -73,8 +62,8 @@ extern "C"
    *
    * O(points), if few points share a node. */
   ABUT_API abut_status abut_points_cover(const abut_points *points,
-                                         const abut_point_places *places,
-                                         const uint8_t *marks, uint8_t *keep);
+                                         int32_t n_pairs, const uint8_t *marks,
+                                         uint8_t *keep);
 
   /** Normals of other points of contact at the nodes of @p n points.
    *
@@ -83,9 +72,8 @@ extern "C"
    * @param rival_point out, [n_rivals] place in @p first, ascending; NULL: only
    *   the number is found
    * @param rival_row out, [n_rivals] component of the normal; or NULL */
-  ABUT_API abut_status abut_points_rivals(const abut_points *points,
-                                          const abut_point_places *places,
-                                          int32_t n, const int32_t *first,
+  ABUT_API abut_status abut_points_rivals(const abut_points *points, int32_t n,
+                                          const int32_t *first,
                                           int32_t *n_rivals,
                                           int32_t *rival_point,
                                           int32_t *rival_row);

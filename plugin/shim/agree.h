@@ -2,6 +2,8 @@
 #ifndef ABUT_SHIM_AGREE_H
 #define ABUT_SHIM_AGREE_H
 
+#include "shim/core_message.h"
+
 #include <abut/context.h>
 #include <abut/dealii/coded.h>
 
@@ -83,7 +85,7 @@ namespace abut::shim
   {
     if (status == ABUT_SUCCESS)
       return "";
-    const std::string message = abut_context_message(context);
+    const std::string message = core_message(context);
     return message.empty() ? abut_status_text(status) : message;
   }
 

@@ -8,10 +8,10 @@ namespace abut::shim
   {
     AssertThrow(
         !is_lost_,
-        dealii::ExcMessage(what
-                           + " the last commit(), whose displacement is not "
-                             "known any more after reinit() or load(): tell it "
-                             "by set_committed() before detect()."));
+        dealii::ExcMessage(
+            what
+            + " the last commit(), whose displacement is lost after reinit() "
+              "or load(). Call set_committed() before detect()."));
   }
 
   template <int dim>

@@ -114,7 +114,7 @@ namespace abut
     auto &i = *implementation;
     if (i.surfaces != nullptr && !i.source_is_outdated
         && differ_in_gaps(i.input.pairs, pairs))
-      i.has_new_gaps = true;
+      i.surface_search.has_new_gaps = true;
     else
       i.source_is_outdated = true;
     i.input.pairs = pairs;
@@ -205,9 +205,9 @@ namespace abut
         i.start.keep_field(*i.source, i.row_pressures());
       i.create_source();
     }
-    else if (i.has_new_gaps)
+    else if (i.surface_search.has_new_gaps)
       i.surfaces->set().set_gaps(i.input.pairs);
-    i.has_new_gaps = false;
+    i.surface_search.has_new_gaps = false;
     i.rows.are_found = false;
     i.raises.clear();
     i.committed.check_approach(displacement, [&](const auto &motions)
@@ -251,9 +251,10 @@ namespace abut
     auto &i = *implementation;
     const la::Vector &displacement =
         i.given("linearise()", "displacement", given_displacement);
-    AssertThrow(!i.is_nitsche(), ExcMessage("Nitsche's method is for linear "
-                                            "elastic bodies: do not call "
-                                            "linearise() with it."));
+    AssertThrow(!i.input.is_nitsche(),
+                ExcMessage("Nitsche's method is for linear "
+                           "elastic bodies: do not call "
+                           "linearise() with it."));
     if (i.moves())
       i.move_rows(displacement, i.row_values());
     else if (i.is_started)
@@ -504,10 +505,10 @@ namespace abut
     const auto &i = *implementation;
     IterationReport result;
     result.progress = i.progress();
-    result.reason = i.reason();
+    result.reason = i.is_started ? i.request.reason : ABUT_REASON_NONE;
     result.failure = abut_reason_failure(
         result.reason, i.input.method.options.law, &result.progress);
-    const std::string seen = abut_context_message(i.context.get());
+    const std::string seen = shim::core_message(i.context.get());
     const bool failed = result.reason != ABUT_REASON_NONE
                         && result.reason != ABUT_REASON_CONVERGED;
     // Remedies for other methods that do not contract are of no use with

@@ -140,7 +140,7 @@ namespace abut::shim
       {
         const double tolerance = i.input.method.options.final_linear_tolerance;
         if (!i.is_started
-            || (i.is_nitsche() && i.input.method.nitsche_theta != 0.))
+            || (i.input.is_nitsche() && i.input.method.nitsche_theta != 0.))
           return 0.;
         return imbalance(residual, i.scales.smallest_residual / tolerance);
       }

@@ -74,15 +74,16 @@ namespace abut::shim
       findings.add(
           ABUT_FAILURE_LARGE_STRAIN, is_error,
           "The largest strain is " + percent(seen.strain) + ", "
-              + percent(seen.mean_strain) + " in the mean"
-              + ", but strains are taken as small ones, linear in the "
-                "displacement. Look at the units of loads and stiffness"
+              + percent(seen.mean_strain)
+              + " in the mean; linear theory is valid up to about "
+              + percent(visible_strain)
+              + ". Check the units of loads and stiffness"
               + (seen.strain > 3. * seen.mean_strain
                      ? ", or for a singular corner, where the largest strain "
                        "grows with refinement and the mean does not"
                      : "")
-              + (is_error ? "; if such strains are meant, allow them (Allow "
-                            "large strain)."
+              + (is_error ? "; if such strains are meant, set Solid/Accept "
+                            "strains beyond linear theory."
                           : "."));
     }
 
@@ -91,19 +92,19 @@ namespace abut::shim
       if (imbalance > visible_imbalance)
         findings.add(ABUT_FAILURE_UNBALANCED, imbalance > useless,
                      "Forces are out of balance by " + percent(imbalance)
-                         + " of the load. The residual is internal minus "
-                           "external forces, at the last displacement; look "
-                           "at its sign.");
+                         + " of the load (limit " + percent(visible_imbalance)
+                         + "). Check the sign of the residual: internal "
+                           "minus external forces, at the last displacement.");
     }
 
     /** A depth with what it is compared with. */
     std::string compared(const DepthScale &scale, const double depth)
     {
       if (scale.way == 0.)
-        return number(depth) + " although no body is deformed";
+        return number(depth) + " without deformation";
       return number(depth) + ", where "
-             + (scale.way < scale.far ? "bodies are deformed by no more than "
-                                      : "nothing moves by more than ")
+             + (scale.way < scale.far ? "deformation is at most "
+                                      : "displacements are at most ")
              + number(scale.way);
     }
 
@@ -124,26 +125,26 @@ namespace abut::shim
             ABUT_FAILURE_SLIDING, pair.slip > length,
             pair.name + ": the surfaces slide on each other by "
                 + number(pair.slip) + ", more than a facet, " + number(facet)
-                + ", but contact is that of the places before: its "
-                  "pressure sits where it was. With "
+                + ", but contact is evaluated at the positions before sliding, "
+                  "so the pressure does not move with it. With "
                 + (touches_itself ? "boundary ids and a pair of their own for "
                                     "the two parts, and "
                                   : "")
-                + "Method/Sliding = large it follows.");
+                + "Method/Contact geometry = current it follows.");
       if (is_obstacle && scale.is_more(pair.gap_error, visible_gap_error))
         findings.add(
             ABUT_FAILURE_SLIDING, scale.is_more(pair.gap_error, useless),
             pair.name + ": nodes in contact slide by up to " + number(pair.slip)
-                + ", and their distance from the obstacle, which is "
-                  "curved or has a corner, is off by "
+                + ", and their distance from the obstacle, which is curved or "
+                  "has a corner, has an error of "
                 + compared(scale, pair.gap_error) + ", at "
                 + numbers(dealii::Tensor<1, dim>(worst))
-                + ": gaps are those of the undeformed places, and in a concave "
-                  "corner a node has the condition of one side alone. Give "
-                  "each side of a corner an obstacle and a pair of its own"
-                + (is_mortar ? ", and on a curved one let points move: mortar "
-                               "does not follow obstacles, node to segment and "
-                               "quadrature point do (Method/Discretisation)."
+                + ". Gaps are evaluated in the reference configuration, and a "
+                  "node in a concave corner sees one side only. Give each side "
+                  "of a corner its own obstacle and pair"
+                + (is_mortar ? ". On curved obstacles use Method/Contact "
+                               "geometry = current, with Method/Discretisation "
+                               "= node to segment or quadrature point."
                              : "."));
     }
 
@@ -170,19 +171,17 @@ namespace abut::shim
       const double degrees = 180. / dealii::numbers::PI;
       findings.add(
           ABUT_FAILURE_SLIDING, !allow && pair.rotation > useless,
-          pair.name
-              + ": the forces of contact have the directions of the places "
-                "where points were paired, and normals have turned since by "
+          pair.name + ": contact normals have rotated since pairing by "
               + number(degrees * pair.rotation) + " degrees in their mean, "
               + number(degrees * pair.largest_rotation)
               + " at most: " + percent(pair.rotation)
-              + " of them is beside their present directions, and the "
+              + " of the force differs from the current directions, and the "
                 "resultant "
               + numbers(pair.secondary_force) + " would be about "
               + numbers(dealii::Tensor<1, dim>(pair.secondary_force
                                                + pair.rotated_force))
-              + ". Let points move where they can (Method/Sliding = large), or "
-                "keep motions smaller.");
+              + ". Use Method/Contact geometry = current where possible, or "
+                "smaller motions.");
     }
 
     template <int dim>
@@ -193,28 +192,28 @@ namespace abut::shim
         findings.add(ABUT_FAILURE_PENALTY, true,
                      pair.name + ": the bodies penetrate each other by "
                          + compared(scale, soft)
-                         + ": the contact is far too soft. Use a larger "
-                           "Method/Penalty, or the method augmented "
-                           "lagrangian or lagrange.");
+                         + ". The contact is far too soft: use a larger "
+                           "Method/Penalty factor, or Method/Enforcement = "
+                           "augmented lagrangian or lagrange.");
       if (scale.is_more(pair.held_inside, useless))
-        findings.add(ABUT_FAILURE_HELD_NODES, true,
-                     pair.name
-                         + ": supports hold nodes of the secondary surface "
-                           "inside the other side by up to "
-                         + compared(scale, pair.held_inside)
-                         + ": contact cannot move them. Leave these nodes "
-                           "free along the normal, or move what supports "
-                           "them.");
+        findings.add(
+            ABUT_FAILURE_HELD_NODES, true,
+            pair.name
+                + ": prescribed displacements keep nodes of the secondary "
+                  "surface inside the other body by up to "
+                + compared(scale, pair.held_inside)
+                + ". Contact cannot move them: leave these nodes free along "
+                  "the normal, or change the prescribed displacement.");
       if (pair.n_prescribed > 0)
-        findings.add(ABUT_FAILURE_HELD_NODES, false,
-                     pair.name
-                         + ": supports prescribe the displacement along the "
-                           "normal at nodes of the secondary surface in or "
-                           "beside the contact zone ("
-                         + std::to_string(pair.n_prescribed)
-                         + "): the forces there are reactions of the supports, "
-                           "without friction. Leave these nodes free along the "
-                           "normal if contact is to carry them.");
+        findings.add(
+            ABUT_FAILURE_HELD_NODES, false,
+            pair.name
+                + ": the normal displacement is prescribed at nodes of the "
+                  "secondary surface in or next to the contact zone ("
+                + std::to_string(pair.n_prescribed)
+                + "). Forces there are reactions of supports, without "
+                  "friction. Leave these nodes free along the normal if "
+                  "contact is to carry them.");
     }
 
     /** Facets that rotate by a large angle: polygons that are in each other. */
@@ -229,14 +228,14 @@ namespace abut::shim
                       { return warning.failure == ABUT_FAILURE_COARSE_CURVE; });
       if (turns
           && scale.is_more(depth - std::max(0., pair.penetration), useless))
-        findings.add(ABUT_FAILURE_COARSE_CURVE, true,
-                     pair.name
-                         + ": corners of the secondary surface are inside the "
-                           "other side, which their constraints see in the "
-                           "mean alone, by up to "
-                         + compared(scale, depth)
-                         + ": refine the surfaces; if they are meant to fit, "
-                           "do not take their gap from the mesh (Mesh gap).");
+        findings.add(
+            ABUT_FAILURE_COARSE_CURVE, true,
+            pair.name
+                + ": corners of the secondary surface are inside the other "
+                  "body, which weighted gaps see in the mean only, by up to "
+                + compared(scale, depth)
+                + ". Refine the surfaces; if they are meant to fit, set Use "
+                  "mesh gap = false.");
     }
 
     /** Straight facets whose distance from their curve is as large as all that
@@ -245,14 +244,14 @@ namespace abut::shim
                       const DepthScale &scale, Findings &findings)
     {
       if (error > 0.)
-        findings.add(ABUT_FAILURE_COARSE_CURVE, true,
-                     pair
-                         + ": straight facets in contact are away from their "
-                           "curve, at nodes of the other side, by up to "
-                         + compared(scale, error)
-                         + ": gaps are those of polygons. Refine the surfaces, "
-                           "or, if they are meant to fit, do not take their "
-                           "gap from the mesh (Mesh gap).");
+        findings.add(
+            ABUT_FAILURE_COARSE_CURVE, true,
+            pair
+                + ": straight facets in contact differ from their curve, at "
+                  "nodes of the other surface, by up to "
+                + compared(scale, error)
+                + ", since gaps are those of polygons. Refine the surfaces; if "
+                  "they are meant to fit, set Use mesh gap = false.");
     }
 
     template <int dim>
@@ -270,16 +269,16 @@ namespace abut::shim
       if (!is_obstacle)
       {
         if (scale.is_more(between, useless))
-          findings.add(ABUT_FAILURE_COARSE_SECONDARY, true,
-                       pair.name
-                           + ": nodes of the primary surface are inside the "
-                             "secondary, between its constraints, by up to "
-                           + compared(scale, pair.between_rows)
-                           + (size_ratio > 1.
-                                  ? ": exchange the two sides, or refine the "
-                                    "secondary."
-                                  : ": refine the secondary."),
-                       if_flat(between), place);
+          findings.add(
+              ABUT_FAILURE_COARSE_SECONDARY, true,
+              pair.name
+                  + ": nodes of the primary surface are inside the "
+                    "secondary, between its constraints, by up to "
+                  + compared(scale, pair.between_rows)
+                  + (size_ratio > 1.
+                         ? ". Exchange the two sides, or refine the secondary."
+                         : ". Refine the secondary."),
+              if_flat(between), place);
         return;
       }
       const bool missed = pair.missed_depth > missed_part * size
@@ -289,22 +288,18 @@ namespace abut::shim
       const double unknown = presses ? std::min(peak, between) : between;
       const bool hidden = scale.is_more(unknown, useless);
       if (missed || scale.is_more(between, useless))
-        findings.add(ABUT_FAILURE_UNSEEN, missed || hidden,
-                     pair.name
-                         + ": the obstacle is in the body between nodes, "
-                           "by up to "
-                         + compared(scale, pair.between_rows)
-                         + (!hidden ? std::string()
-                            : presses
-                                ? ", of which no node knows " + number(unknown)
-                                : ", and no constraint presses")
-                         + (missed ? ", and facets that it is in by up to "
-                                         + number(pair.missed_depth)
-                                         + " have no contact at all"
-                                   : std::string())
-                         + ": refine the surface there. Smaller load steps "
-                           "do not help.",
-                     if_flat(hidden ? unknown : between), place);
+        findings.add(
+            ABUT_FAILURE_UNSEEN, missed || hidden,
+            pair.name + ": the obstacle penetrates between nodes by up to "
+                + compared(scale, pair.between_rows)
+                + (!hidden   ? std::string()
+                   : presses ? ", undetected by nodes: " + number(unknown)
+                             : ", and no constraint is active")
+                + (missed ? ", and facets without contact by up to "
+                                + number(pair.missed_depth)
+                          : std::string())
+                + ". Refine the surface there; smaller load steps do not help.",
+            if_flat(hidden ? unknown : between), place);
     }
 
     void judge_separated_rows(const std::string &pair,
@@ -312,17 +307,19 @@ namespace abut::shim
                               const DepthScale &scale, Findings &findings)
     {
       if (apart.force > 0.)
-        findings.add(
-            ABUT_FAILURE_SLIDING, false,
-            pair + ": constraints press where the surfaces are apart, by up to "
-                + compared(scale, apart.gap) + ", with "
-                + percent(apart.force / apart.all) + " of the force. "
-                + (follows ? "Dual functions see convex surfaces too near: "
-                             "refine the surfaces, or use "
-                             "Method/Discretisation = mortar."
-                           : "Gaps are those of where points were made: let "
-                             "points move (Method/Sliding = large), or keep "
-                             "motions smaller."));
+        findings.add(ABUT_FAILURE_SLIDING, false,
+                     pair
+                         + ": constraints are active where the surfaces are "
+                           "apart, by up to "
+                         + compared(scale, apart.gap) + ", with "
+                         + percent(apart.force / apart.all) + " of the force. "
+                         + (follows
+                                ? "Gaps of dual mortar are too small on convex "
+                                  "surfaces: refine the surfaces, or use "
+                                  "Method/Discretisation = mortar."
+                                : "Gaps are evaluated where the points were "
+                                  "paired: use Method/Contact geometry = "
+                                  "current, or smaller motions."));
     }
 
     void judge_width(const std::string &pair, const ObstacleWidth &narrowest,
@@ -372,8 +369,8 @@ namespace abut::shim
         findings.add(ABUT_FAILURE_UNSEEN, true,
                      pair + ": the surface is in the obstacle by "
                          + compared(scale, depth)
-                         + ", and has no constraint: refine the surface "
-                           "there, or use smaller load steps.");
+                         + ", without a constraint. Refine the surface there, "
+                           "or use smaller load steps.");
     }
 
     /** The deepest of all ranks. */
@@ -433,13 +430,13 @@ namespace abut::shim
       if (missed || scale.is_more(between, useless))
         Findings(result).add(
             ABUT_FAILURE_UNSEEN, missed || hidden,
-            "The obstacle is above the membrane between nodes, by up to "
+            "The obstacle penetrates the membrane between nodes by up to "
                 + compared(scale, deepest.any)
-                + (hidden ? ", of which no node knows " + number(peak)
+                + (hidden ? ", undetected by nodes: " + number(peak)
                           : std::string())
-                + (missed ? ", and cells that it is in by up to "
+                + (missed ? ", and cells without contact that it penetrates by "
+                            "up to "
                                 + number(deepest.missed)
-                                + " have no contact at all"
                           : std::string())
                 + ": refine the mesh there.");
     }
@@ -480,12 +477,11 @@ namespace abut::shim
       return result;
     for (const solve::FreeMotion &motion : i.system.undetermined)
       findings.add(ABUT_FAILURE_FLOATING_BODY, false,
-                   "Loads and contact do not determine a motion: "
+                   "Loads and contact do not determine a rigid body mode: "
                        + motion.description
-                       + " without resistance, and the loads do no work along "
-                         "it. The answer has the least such motion in the mean "
-                         "square over the body. Support the body in that "
-                         "direction if the motion matters.");
+                       + " without resistance or load. The result has the "
+                         "smallest such motion in the mean square. Support the "
+                         "body in that direction if the motion matters.");
     result.motions = i.system.solver != nullptr
                          ? i.system.solver->rigid_motions(displacement)
                          : i.system.followed_motions;
@@ -550,10 +546,10 @@ namespace abut::shim
         judge_corners(pairs[p], checks[p], surface_pairs[p].held_in_the_mean,
                       scale, findings);
       for (const Message &refused : surface_pairs[p].refused)
-        findings.add(refused.failure, true,
-                     pairs[p].name
-                         + " would be refused; what was found is there to be "
-                           "measured, and no answer.");
+        findings.add(
+            refused.failure, true,
+            pairs[p].name
+                + " is normally rejected; this result is for study only.");
       if (is_obstacle && i.input.pairs[p].geometric_gap)
       {
         const auto inside =

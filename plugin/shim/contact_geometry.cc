@@ -3,13 +3,11 @@
 // on from what rows of the same number had; what their forces change by because
 // their directions do is a part of the tangent.
 #include "contact_problem.h"
-#include "partner_changes.h"
 
 #include "solve/row_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace abut::shim
 {
@@ -55,13 +53,17 @@ namespace abut::shim
       if (i.rows.has_friction)
         result.slip_reference =
             i.surfaces->slip().reference(elsewhere, i.committed.displacement());
-      std::set<std::int64_t> pressing;
-      for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
-        if (!i.rows.coefficients.is_tangent(row)
-            && i.request.pressure[row] > 0.)
-          pressing.insert(i.rows.coefficients.ids()[row]);
-      i.moving.add_changes(
-          count_changes(i.surfaces->points(), elsewhere, pressing));
+      const abut_points_view &view = i.surfaces->points().view();
+      std::vector<std::uint8_t> pressing(view.n_points);
+      for (std::int32_t k = 0; k < view.n_points; ++k)
+        pressing[k] = i.request.pressure[view.component_start[k]] > 0.;
+      abut_place_changes changes;
+      check(i.context.get(),
+            abut_points_count_changes(i.surfaces->points().handle(),
+                                      elsewhere.handle(), pressing.data(),
+                                      &changes));
+      i.moving.add_changes({static_cast<unsigned int>(changes.lost),
+                            static_cast<unsigned int>(changes.jumped)});
       return result;
     }
   } // namespace
@@ -127,7 +129,7 @@ namespace abut::shim
   template <int dim>
   void ContactProblem<dim>::follow(const la::Vector &displacement)
   {
-    const std::vector<std::int64_t> before = row_numbers();
+    const std::vector<std::int64_t> before = rows.numbers();
     if (system.solver != nullptr)
       system.followed_motions = system.solver->rigid_motions(displacement);
     surfaces->points().displacements_in_reach(displacement);
@@ -137,7 +139,7 @@ namespace abut::shim
     set_up_rows();
     // Rows come and go where gaps are as large as the reach: then the rows of
     // the last linearisation suffice.
-    if (MPI::logical_or(before != row_numbers(), communicator))
+    if (MPI::logical_or(before != rows.numbers(), communicator))
     {
       rows.points = std::move(old_points);
       surfaces->restore(std::move(kept));

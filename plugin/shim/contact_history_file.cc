@@ -75,11 +75,11 @@ namespace abut::shim
       Head head = {};
       read(stream, reinterpret_cast<char *>(&head), sizeof(head));
       if (std::memcmp(head.magic, magic, sizeof(magic)) != 0)
-        throw HistoryError("This is no history of contact, as "
-                           "ContactState::save() writes it.");
+        throw HistoryError(
+            "This is not a contact history written by ContactState::save().");
       if (head.byte_order != byte_order)
-        throw HistoryError("The history of contact was written by a machine "
-                           "with another order of bytes.");
+        throw HistoryError("The contact history was written by a machine with "
+                           "another byte order.");
       if (head.version != version)
         throw HistoryError("The history of contact has version "
                            + std::to_string(head.version) + ", not "
@@ -197,10 +197,9 @@ namespace abut::shim
                                                    ABUT_HISTORY_TRIAL, &known));
             if (known.mesh != 0 && known.mesh != mesh)
               throw HistoryError(
-                  "The history of contact belongs to another mesh, or to other "
-                  "surfaces: points there have other numbers. Take the "
-                  "pressure along as a field instead, see "
-                  "ContactState::set_pressure().");
+                  "The contact history belongs to another mesh or to other "
+                  "surfaces. Transfer the pressure as a field instead "
+                  "(ContactState::set_pressure()).");
             merge(context_, part.get(), loaded.get());
           }
         });

@@ -23,13 +23,13 @@ namespace abut::shim
                              + std::to_string(n_vertices) + "."));
       for (std::size_t v = 0; v < origins.size(); ++v)
         for (const unsigned int end : origins[v].ends)
-          AssertThrow(origins[v].level == 0
-                          || (end < n_vertices && end != v
-                              && origins[end].level <= origins[v].level),
-                      ExcMessage("Vertex " + std::to_string(v)
-                                 + " was not made between vertices of the "
-                                   "same or lower levels, as "
-                                   "set_vertex_origins() was told."));
+          AssertThrow(
+              origins[v].level == 0
+                  || (end < n_vertices && end != v
+                      && origins[end].level <= origins[v].level),
+              ExcMessage("Vertex " + std::to_string(v)
+                         + " was not made between vertices of the same or "
+                           "lower levels, as given to set_vertex_origins()."));
     }
   } // namespace
 
@@ -128,9 +128,9 @@ namespace abut::shim
     {
       check_size(call, what, given.size());
       check(given.owned() == owned,
-            " is not distributed over the ranks as the unknowns are: make it "
-            "with DoFHandler::locally_owned_dofs(). Types without ranks need "
-            "one rank, or a mesh and a ContactAssembler of MPI_COMM_SELF.");
+            " is not distributed over the ranks like the unknowns: create it "
+            "with DoFHandler::locally_owned_dofs(). Serial types need one "
+            "rank, or a mesh and a ContactAssembler on MPI_COMM_SELF.");
     }
     check(!given.has_ghosts(), ghosted);
     return given.copy(owned, communicator_);
@@ -169,12 +169,12 @@ namespace abut::shim
       check_size(call, "matrix", other->m());
     const bool fits =
         other->n() == other->m() && (is_block || other->rows() == owned);
-    AssertThrow(dealii::Utilities::MPI::min(int(fits), communicator_) == 1,
-                ExcMessage("The " + name
-                           + " is not square, or its rows are not distributed "
-                             "over the ranks as the unknowns are. Types "
-                             "without ranks need one rank, or a mesh and a "
-                             "ContactAssembler of MPI_COMM_SELF."));
+    AssertThrow(
+        dealii::Utilities::MPI::min(int(fits), communicator_) == 1,
+        ExcMessage("The " + name
+                   + " is not square, or its rows are not distributed over the "
+                     "ranks like the unknowns. Serial types need one rank, or "
+                     "a mesh and a ContactAssembler on MPI_COMM_SELF."));
     const la::Matrix &taken = copy.copy(*other, name, owned, communicator_);
     check_eliminated(taken, *constraints_, name, communicator_);
     return taken;

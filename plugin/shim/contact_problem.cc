@@ -106,7 +106,7 @@ namespace abut::shim
         i.set_up_rows();
       else if (change == RowSource::Change::constants)
         i.rows.coefficients.renew_constants(i.source->nodes());
-      if (i.is_nitsche())
+      if (i.input.is_nitsche())
       {
         i.nitsche.find(i.surfaces, i.rows.coefficients.n_rows(),
                        i.input.method.nitsche_theta);
@@ -128,7 +128,7 @@ namespace abut::shim
       if (i.history.knows(ABUT_HISTORY_COMMITTED, i.rows.mesh))
       {
         const std::vector<double> rows = i.history.pressures(
-            i.row_numbers(), i.rows.placed, ABUT_HISTORY_COMMITTED);
+            i.rows.numbers(), i.rows.placed, ABUT_HISTORY_COMMITTED);
         for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
           if (i.rows.coefficients.is_tangent(row))
             traction.push_back(rows[row]);
@@ -187,10 +187,10 @@ namespace abut::shim
                                  "not a HostOperator."));
       };
       using Linear = SolverParameters::Linear;
-      need(i.is_nitsche(), "Nitsche's method");
+      need(i.input.is_nitsche(), "Nitsche's method");
       need(i.input.method.system == System::saddle_point,
            "Method/System = saddle point");
-      need(i.moves(), "Contact at points that move (Method/Sliding)");
+      need(i.moves(), "Contact with Method/Contact geometry = current");
       need(i.input.solver.linear == Linear::direct,
            "Solver/Linear solver = direct");
       need(i.input.solver.linear == Linear::geometric,
@@ -252,9 +252,9 @@ namespace abut::shim
   template <int dim>
   void ContactProblem<dim>::add_forces_of_law(la::Vector &forces) const
   {
-    AssertThrow(!is_nitsche(), ExcMessage("The forces of Nitsche's method "
-                                          "are not those of its pressures "
-                                          "alone."));
+    AssertThrow(!input.is_nitsche(),
+                ExcMessage("Forces of Nitsche's method do not "
+                           "follow from its pressures alone."));
     add_forces(forces);
   }
 
@@ -337,8 +337,8 @@ namespace abut::shim
     else
     {
       AssertThrow(has_obstacle,
-                  ExcMessage("There is nothing to touch: call set_obstacle() "
-                             "or set_pairs() first."));
+                  ExcMessage("There is no obstacle and no pair: call "
+                             "set_obstacle() or set_pairs() first."));
       AssertThrow(
           host.dof_handler().get_fe().n_components() == 1,
           ExcMessage(
@@ -403,10 +403,10 @@ namespace abut::shim
       rows.dimension = source->dimension();
       rows.points = create_points(context.get(), rows.dimension);
     }
-    if (surfaces != nullptr && makes_points_at_commits())
+    if (surfaces != nullptr && input.makes_points_at_commits())
     {
       committed.check(
-          "Points of ABUT_KINEMATICS_UPDATED are made where bodies were at");
+          "Points of ABUT_KINEMATICS_UPDATED are created at the positions of");
       surfaces->set().set_place(committed.displacement());
     }
     if (surfaces != nullptr)
@@ -506,11 +506,6 @@ namespace abut::shim
     find_slip_reference();
   }
 
-  template <int dim> bool ContactProblem<dim>::is_nitsche() const
-  {
-    return abut_law_needs_stress(input.method.options.law);
-  }
-
   template <int dim>
   void ContactProblem<dim>::compute_gap(const la::Vector &displacement)
   {
@@ -518,13 +513,13 @@ namespace abut::shim
     rows.coefficients.gap(displacement, rows.gap.data());
     rows.slip_reference.subtract_from(rows.gap);
     raises.add_to(rows.coefficients, rows.gap);
-    if (is_nitsche())
+    if (input.is_nitsche())
       nitsche.move_to(displacement);
   }
 
   template <int dim> const double *ContactProblem<dim>::law_gap()
   {
-    return is_nitsche() ? nitsche.law_gap(rows.gap) : rows.gap.data();
+    return input.is_nitsche() ? nitsche.law_gap(rows.gap) : rows.gap.data();
   }
 
   template <int dim>
@@ -559,12 +554,12 @@ namespace abut::shim
     strategy = create_strategy(context.get(), options);
     set_friction(*this);
 
-    if (!is_nitsche() && surfaces != nullptr
+    if (!input.is_nitsche() && surfaces != nullptr
         && is_penalty(*input.method.options.law))
       surfaces->multipliers().make_uniform(stiffness);
     if (surfaces != nullptr)
       surfaces->multipliers().copy_to_tangents(stiffness);
-    if (is_nitsche())
+    if (input.is_nitsche())
     {
       input.method.options.penalty =
           abut_strategy_first_penalty(&input.method.options);
@@ -630,7 +625,7 @@ namespace abut::shim
     {
       // Nitsche's method and hosts have their own multigrid.
       SolverParameters parameters = input.solver;
-      if (is_nitsche() || !system.has_matrix)
+      if (input.is_nitsche() || !system.has_matrix)
         parameters.linear = SolverParameters::Linear::iterative;
       system.bodies = make_solver_space(host.mapping(), host.dof_handler(),
                                         host.constraints(), surfaces != nullptr,
@@ -659,7 +654,7 @@ namespace abut::shim
         system.has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
     if (system.solver == nullptr)
     {
-      if (is_nitsche())
+      if (input.is_nitsche())
         system.solver = std::make_unique<solve::NitscheSolver>(input.solver,
                                                                nitsche.terms());
       else

@@ -50,6 +50,19 @@ namespace abut::shim
     SearchParameters search;
     SolverParameters solver;
     bool constant_matrix = false;
+
+    /** Whether the law needs the normal stress of the bodies. */
+    bool is_nitsche() const
+    {
+      return abut_law_needs_stress(method.options.law);
+    }
+
+    /** Whether a commit() determines where the next points are made. */
+    bool makes_points_at_commits() const
+    {
+      return kinematics_info(method.kinematics).points
+             == ABUT_CONFIGURATION_COMMITTED;
+    }
   };
 
   /** Surfaces of pairs, and what it took to find which may touch. */
@@ -58,6 +71,7 @@ namespace abut::shim
     /** The facets of pairs on this mesh, once they are found. */
     std::shared_ptr<SurfaceExchange<dim>> exchange;
     CommunicationReport sent_before; ///< on earlier meshes
+    bool has_new_gaps = false;       ///< of pairs that are otherwise the same
     DetectionReport detection;
     ContactElements elements;
     /** How far rigid motions are foreseen to go, for searches. */
@@ -81,6 +95,12 @@ namespace abut::shim
     RowSource::SlipReference slip_reference;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
+
+    /** [rows] */
+    std::vector<std::int64_t> numbers() const
+    {
+      return {coefficients.ids(), coefficients.ids() + coefficients.n_rows()};
+    }
   };
 
   /** Linear systems with rows. */
@@ -167,8 +187,6 @@ namespace abut::shim
     /** A motion on the present mesh. */
     la::Vector
     displacement_of(const std::vector<solve::RigidMotion> &motions) const;
-    /** Whether the law needs the normal stress of the bodies. */
-    bool is_nitsche() const;
     /** The gap as the law wants it. */
     const double *law_gap();
     /** Make what has been reached the start of the next iteration. */
@@ -176,12 +194,6 @@ namespace abut::shim
     void begin_at(const la::Vector &displacement);
     /** Whether rows are where the bodies are. */
     bool moves() const;
-    /** Whether a commit() determines where the next points are made. */
-    bool makes_points_at_commits() const
-    {
-      return kinematics_info(input.method.kinematics).points
-             == ABUT_CONFIGURATION_COMMITTED;
-    }
     /** Pressures and states by the numbers of the rows. */
     RowValues row_values() const;
     /** Make rows at this displacement, which start from what those of the same
@@ -212,15 +224,10 @@ namespace abut::shim
     /** Pressures and states reached, or those to start from. */
     double row_pressure(int row) const;
     std::vector<double> row_pressures() const;
-    std::vector<std::int64_t> row_numbers() const;
     /** Add the forces of the rows' pressures. */
     void add_forces(la::Vector &forces) const;
     /** The same, but throw for a law whose forces are not these alone. */
     void add_forces_of_law(la::Vector &forces) const;
-    abut_reason reason() const
-    {
-      return is_started ? request.reason : ABUT_REASON_NONE;
-    }
     abut_progress progress() const;
     std::vector<std::uint8_t> row_states() const;
     /** How far a row's pressure and a gap are from the law, length. */
@@ -235,7 +242,6 @@ namespace abut::shim
     /** The same object if it makes rows of pairs, else null. */
     SurfaceRows<dim> *surfaces = nullptr;
     bool source_is_outdated = true;
-    bool has_new_gaps = false; ///< of pairs that are otherwise the same
     SurfaceSearch<dim> surface_search;
     PresentRows rows;
     NitscheRows<dim> nitsche{context.get()};

@@ -23,15 +23,8 @@ namespace abut
     abut_progress progress = {};
     abut_strategy_progress(strategy.get(), &progress);
     penalty.reached = progress.penalty;
-    history.record(rows.mesh, row_numbers(), rows.placed, row_pressures(),
+    history.record(rows.mesh, rows.numbers(), rows.placed, row_pressures(),
                    row_states(), penalty);
-  }
-
-  template <int dim>
-  std::vector<std::int64_t> shim::ContactProblem<dim>::row_numbers() const
-  {
-    return {rows.coefficients.ids(),
-            rows.coefficients.ids() + rows.coefficients.n_rows()};
   }
 
   template <int dim>
@@ -101,7 +94,7 @@ namespace abut
     // Pairs with friction may be out of reach of each other as yet. Pairs that
     // reach each other later need a reference of slips.
     const bool is_wanted =
-        i.makes_points_at_commits()
+        i.input.makes_points_at_commits()
         || std::any_of(i.input.pairs.begin(), i.input.pairs.end(),
                        [](const ContactPair<dim> &pair)
                        { return pair.friction != nullptr; });
@@ -120,8 +113,6 @@ namespace abut
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<std::int64_t> shim::ContactProblem<dim>::row_numbers()  \
-      const;                                                                   \
   template shim::StartRows shim::ContactProblem<dim>::start_rows() const;      \
   template void shim::ContactProblem<dim>::record_present();                   \
   template void shim::ContactProblem<dim>::go_on_with_penalty(                 \

@@ -19,6 +19,14 @@ namespace abut::shim
         result.push_back(vector[d]);
     return result;
   }
+
+  /** Room for the core to put vectors in, [n * dim]; null: none. */
+  template <int dim>
+  double *data_of(std::vector<dealii::Tensor<1, dim>> &vectors)
+  {
+    static_assert(sizeof(vectors[0]) == dim * sizeof(double), "no padding");
+    return vectors.empty() ? nullptr : &vectors[0][0];
+  }
 } // namespace abut::shim
 
 #endif

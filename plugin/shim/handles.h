@@ -2,10 +2,12 @@
 #ifndef ABUT_SHIM_HANDLES_H
 #define ABUT_SHIM_HANDLES_H
 
-#include <abut/coupling.h>
+#include "shim/core_message.h"
+
 #include <abut/dealii/coded.h>
 #include <abut/detect.h>
 #include <abut/history.h>
+#include <abut/interface.h>
 #include <abut/obstacle.h>
 #include <abut/points.h>
 #include <abut/search.h>
@@ -37,9 +39,9 @@ namespace abut::shim
     {
       abut_strategy_destroy(&object);
     }
-    void operator()(abut_coupling *object) const
+    void operator()(abut_interface *object) const
     {
-      abut_coupling_destroy(&object);
+      abut_interface_destroy(&object);
     }
     void operator()(abut_surface *object) const
     {
@@ -70,12 +72,12 @@ namespace abut::shim
   {
     const bool has_message =
         context != nullptr && *abut_context_message(context) != 0;
-    AssertThrow(status == ABUT_SUCCESS,
-                dealii::ExcMessage(coded(
-                    status == ABUT_INVALID_MESH ? ABUT_FAILURE_DEGENERATE_FACET
-                                                : ABUT_FAILURE_NONE,
-                    has_message ? abut_context_message(context)
-                                : abut_status_text(status))));
+    AssertThrow(
+        status == ABUT_SUCCESS,
+        dealii::ExcMessage(coded(
+            status == ABUT_INVALID_MESH ? ABUT_FAILURE_DEGENERATE_FACET
+                                        : ABUT_FAILURE_NONE,
+            has_message ? core_message(context) : abut_status_text(status))));
   }
 
   inline Handle<abut_context> create_context()

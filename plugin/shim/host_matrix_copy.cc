@@ -96,7 +96,7 @@ namespace abut::shim
         bad = std::min(bad, line.index);
     }
     refuse_row(bad, name,
-               "entries beside the diagonal, although the constraints given to "
+               "off-diagonal entries, although the constraints given to "
                "reinit() eliminate it (assemble with "
                "AffineConstraints::distribute_local_to_global(), or apply "
                "boundary values to the matrix),",

@@ -170,7 +170,7 @@ namespace abut::shim
       const dealii::FiniteElement<dim> &fe = dof_handler_.get_fe();
       if (dealii::Utilities::MPI::n_mpi_processes(communicator_) > 1
           && !knows_coarse_mesh(triangulation_))
-        return "the ranks do not all know the coarsest mesh";
+        return "the coarsest mesh is not on all ranks";
       const auto is_known = [](const dealii::FiniteElement<dim> &base)
       {
         return (dynamic_cast<const dealii::FE_Q<dim> *>(&base) != nullptr

@@ -2,6 +2,8 @@
 #include <abut/dealii/coded.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include "user_law.h"
 
@@ -51,28 +53,30 @@ namespace abut
 
     void declare_discretisation(ParameterHandler &prm)
     {
-      prm.declare_entry(
-          "Discretisation", automatic_word,
-          Patterns::Selection(discretisation_names()),
-          "How contact between surfaces of bodies is written down. "
+      parameter::declare(
+          prm, "Discretisation", automatic_word,
+          Patterns::Selection(discretisation_names()), parameter::advanced(),
+          "Discretisation of contact between surfaces. "
               + discretisation_texts()
-              + "`auto`: dual mortar between two bodies, node to segment "
-                "against rigid obstacles. A membrane's obstacle always acts at "
-                "nodes.");
-      prm.declare_entry("Multiplier degree", "0", Patterns::Integer(0, 1),
-                        "Degree of the multipliers of `mortar` on quadratic "
-                        "elements: 1, or 0 for that of the elements.");
-      prm.declare_entry("Quadrature degree", "0", Patterns::Integer(0, 8),
-                        "Degree up to which polynomials are integrated exactly "
-                        "on each common part of two facets, or on each facet "
-                        "without `Segments`. 0: chosen by the elements.");
-      prm.declare_entry("Segments", "true", Patterns::Bool(),
-                        "Integrate over the common parts of the facets of the "
-                        "two bodies, cut exactly. If not, at the points of a "
-                        "rule on each facet of the secondary surface: faster, "
-                        "but a constant pressure is wrong by some 1e-2. Does "
-                        "not matter to `node to segment` and against "
-                        "obstacles.");
+              + "`auto`: dual mortar between bodies, node to segment against "
+                "rigid obstacles. A membrane's obstacle always acts at nodes.");
+      parameter::declare(prm, "Multiplier degree", "auto",
+                         OrWord(Patterns::Integer(1, 1), "auto"),
+                         parameter::expert("", "1"),
+                         "Degree of the multipliers of `mortar` on quadratic "
+                         "elements. auto: that of the elements.");
+      parameter::declare(prm, "Quadrature degree", "auto",
+                         OrWord(Patterns::Integer(1, 8), "auto"),
+                         parameter::expert("1", "4"),
+                         "Degree of polynomials that are integrated exactly on "
+                         "each common part of two facets, or on each facet "
+                         "with `Segments = false`. auto: by the elements.");
+      parameter::declare(
+          prm, "Segments", "true", Patterns::Bool(), parameter::expert(),
+          "Whether integrals between bodies run over the common parts of "
+          "facets, cut exactly. false: over the points of a rule on each "
+          "secondary facet; faster, with an error of about 1e-2 of a constant "
+          "pressure. Without effect for node to segment and obstacles.");
     }
 
     /** Names of all laws, separated by bars. */
@@ -92,36 +96,39 @@ namespace abut
 
     void declare_user_law(ParameterHandler &prm)
     {
-      prm.declare_entry("Law file", "", Patterns::Anything(),
-                        "Shared object of your own law, for `user`; a relative "
-                        "name is looked up beside the scene's file, then in "
-                        "the working folder. See doc/your-own-law.md.");
-      prm.declare_entry("Law parameters", "", user_parameters(),
-                        "Parameters of your own law: `name: number, ...`, in "
-                        "the units of the scene.");
+      parameter::declare(
+          prm, "Law file", "", TextPattern::file(),
+          parameter::advanced("", "liblaw.so"),
+          "Shared object of your own contact law, for `Enforcement = user`. A "
+          "relative name is looked up in the folder of the scene file, then in "
+          "the working folder. See doc/your-own-law.md.");
+      parameter::declare(
+          prm, "Law parameters", "", user_parameters(),
+          parameter::advanced("", "stiffness: 100, power: 1.5"),
+          "Parameters of your own contact law, in the units of the scene.");
     }
 
     void declare_user_friction(ParameterHandler &prm)
     {
-      prm.declare_entry("Friction file", "", Patterns::Anything(),
-                        "Shared object of your own friction law, for all that "
-                        "has friction; looked up like `Law file`. Empty: "
-                        "Coulomb's law. See doc/your-own-law.md.");
-      prm.declare_entry("Friction parameters", "", user_parameters(),
-                        "Parameters of your own friction law, written like "
-                        "`Law parameters`.");
-      prm.declare_entry("Friction iteration", iteration_words[0],
-                        Patterns::Selection(std::string(iteration_words[0])
-                                            + "|" + iteration_words[1] + "|"
-                                            + iteration_words[2]),
-                        "How points that stick and slip are found. "
-                        "`primal-dual`: Newton's method for pressures, "
-                        "tractions and displacements, with cures where states "
-                        "come back. The others are the textbooks', there to "
-                        "see where they fail (doc/failures.md). `radial "
-                        "return`: Newton's method on the return map. `tresca`: "
-                        "the bounds of friction are frozen, then made anew "
-                        "from the pressures, and so on.");
+      parameter::declare(prm, "Friction file", "", TextPattern::file(),
+                         parameter::advanced("", "libfriction.so"),
+                         "Shared object of your own friction law, for all "
+                         "pairs with friction; looked up like `Law file`. "
+                         "Empty: Coulomb friction. See doc/your-own-law.md.");
+      parameter::declare(
+          prm, "Friction parameters", "", user_parameters(),
+          parameter::advanced("", "mu: 0.3, decay: 2"),
+          "Parameters of your own friction law, in the units of the scene.");
+      parameter::declare(
+          prm, "Friction iteration", iteration_words[0],
+          Patterns::Selection(std::string(iteration_words[0]) + "|"
+                              + iteration_words[1] + "|" + iteration_words[2]),
+          parameter::expert(),
+          "Iteration for stick and slip. primal-dual: Newton's method for "
+          "pressures, tractions and displacements, with protection against "
+          "cycles. For comparison only: radial return (Newton's method on the "
+          "return map), tresca (friction limits frozen, then updated from the "
+          "pressures).");
     }
 
     std::map<std::string, double> parse_user_parameters(const std::string &text)
@@ -145,93 +152,102 @@ namespace abut
     /** A number of the options: its range is the core's for this field. */
     void declare_number(ParameterHandler &prm, const std::string &name,
                         const double value, const char *field,
-                        const std::string &text)
+                        const parameter::Note &note, const std::string &text)
     {
       const abut_limit *limit = abut_strategy_limit(field);
       AssertThrow(limit != nullptr, dealii::ExcInternalError());
-      prm.declare_entry(name, Patterns::Tools::to_string(value),
-                        NumberPattern(*limit), text);
+      parameter::declare(prm, name, Patterns::Tools::to_string(value),
+                         NumberPattern(*limit), note, text);
     }
 
     void declare_penalty(ParameterHandler &prm, const abut_strategy_options &d)
     {
-      declare_number(prm, "Penalty", d.penalty, "penalty",
-                     "Stiffness of the contact as a multiple of the local "
-                     "stiffness of the contact surface. 0 takes the method's "
-                     "own: penalty 50, augmented lagrangian 20, nitsche "
-                     "10, quadratic penalty starts at 1.");
-      prm.declare_entry("Nitsche theta", "0", NumberPattern::between(-1, 1),
-                        "Variant of `nitsche`: 1 is symmetric and needs the "
-                        "larger penalties, 0 has the fewest terms, -1 "
-                        "converges for all penalties.");
+      const abut_limit *limit = abut_strategy_limit("penalty");
+      AssertThrow(limit != nullptr, dealii::ExcInternalError());
+      parameter::declare(
+          prm, "Penalty factor", "auto", OrWord(NumberPattern(*limit), "auto"),
+          parameter::basic("local stiffness", "100"),
+          "Stiffness of the contact springs relative to the stiffness of the "
+          "contact surface (nitsche: gamma). auto: penalty 50, augmented "
+          "lagrangian 20, nitsche 10, quadratic penalty 1 at the start. "
+          "Larger: less penetration, harder linear systems.");
+      parameter::declare(
+          prm, "Nitsche theta", "0", NumberPattern::between(-1, 1),
+          parameter::expert("1", "1"),
+          "Variant of nitsche. 1: symmetric, needs larger penalties. 0: fewest "
+          "terms. -1: converges for all penalties.");
       declare_number(prm, "Penalty growth", d.penalty_growth, "penalty_growth",
-                     "Factor by which `quadratic penalty` raises the penalty "
-                     "in each outer step.");
-      declare_number(prm, "Penalty cap", d.penalty_cap, "penalty_cap",
-                     "Largest penalty that `quadratic penalty` and `augmented "
-                     "lagrangian` grow to, as a multiple of the local "
-                     "stiffness.");
-      prm.declare_entry("Adaptive penalty",
-                        d.adaptive_penalty ? "true" : "false", Patterns::Bool(),
-                        "Whether `augmented lagrangian` raises the penalty "
-                        "where the penetration falls too slowly.");
+                     parameter::expert("1", "5"),
+                     "Factor of the penalty in each outer iteration of "
+                     "quadratic penalty.");
+      declare_number(
+          prm, "Penalty cap", d.penalty_cap, "penalty_cap",
+          parameter::expert("local stiffness", "1e6"),
+          "Largest penalty of quadratic penalty and augmented lagrangian.");
+      parameter::declare(prm, "Adaptive penalty",
+                         d.adaptive_penalty ? "true" : "false",
+                         Patterns::Bool(), parameter::expert(),
+                         "Whether augmented lagrangian raises the penalty "
+                         "where the penetration decreases too slowly.");
       declare_number(prm, "Allowed penetration", d.allowed_penetration,
                      "allowed_penetration",
-                     "Penetration at which `penalty` begins to push, as a "
-                     "multiple of the scene's length scale.");
-      declare_number(prm, "Complementarity parameter", d.complementarity,
-                     "complementarity",
-                     "Weight of the gap against the pressure when active rows "
-                     "are chosen, as a multiple of the local stiffness. The "
-                     "result does not depend on it.");
+                     parameter::expert("length of the scene", "1e-4"),
+                     "Penetration at which penalty starts to act.");
+      declare_number(
+          prm, "Complementarity parameter", d.complementarity,
+          "complementarity", parameter::expert("local stiffness", "10"),
+          "Weight of the gap relative to the pressure in the choice of active "
+          "constraints. The result does not depend on it.");
     }
 
     void declare_barrier(ParameterHandler &prm, const abut_strategy_options &d)
     {
-      const std::string unit = ", as a multiple of the scene's pressure scale "
-                               "times its length scale.";
-      declare_number(prm, "Barrier start", d.barrier_start, "barrier_start",
-                     "First product of pressure and gap of `barrier` where "
-                     "there is no coarser mesh to start from; no later start "
-                     "is above it"
-                         + unit);
+      declare_number(
+          prm, "Barrier start", d.barrier_start, "barrier_start",
+          parameter::expert("pressure times length of the scene", "1e-2"),
+          "First product of pressure and gap of barrier, where no coarser mesh "
+          "gives a start; later starts are not larger.");
       declare_number(prm, "Barrier factor", d.barrier_factor, "barrier_factor",
+                     parameter::expert("1", "0.2"),
                      "Factor of the barrier in each step of the continuation.");
-      declare_number(prm, "Barrier end", d.barrier_end, "barrier_end",
-                     "Last product of pressure and gap" + unit);
+      declare_number(
+          prm, "Barrier end", d.barrier_end, "barrier_end",
+          parameter::expert("pressure times length of the scene", "1e-10"),
+          "Last product of pressure and gap.");
     }
 
     void declare_stopping(ParameterHandler &prm, const abut_strategy_options &d)
     {
       declare_number(prm, "Gap tolerance", d.gap_tolerance, "gap_tolerance",
-                     "Largest penetration of a converged solution, as a "
-                     "multiple of the scene's length scale.");
+                     parameter::advanced("length of the scene", "1e-8"),
+                     "Largest penetration of a converged solution.");
       declare_number(prm, "Pressure tolerance", d.pressure_tolerance,
-                     "pressure_tolerance",
+                     "pressure_tolerance", parameter::advanced("1", "1e-4"),
                      "Largest relative change of the pressure in the last "
-                     "outer step.");
+                     "outer iteration.");
       declare_number(prm, "Linear tolerance", d.linear_tolerance,
-                     "linear_tolerance",
-                     "Relative tolerance of the linear solver while the "
-                     "active set still changes.");
+                     "linear_tolerance", parameter::expert("1", "1e-3"),
+                     "Relative tolerance of the linear solver while the active "
+                     "set changes.");
       declare_number(prm, "Final linear tolerance", d.final_linear_tolerance,
                      "final_linear_tolerance",
-                     "Relative tolerance of the linear solver in the last "
-                     "step.");
-      prm.declare_entry("Maximum steps", std::to_string(d.max_steps),
-                        Patterns::Integer(1),
-                        "Largest number of linear systems in one solve.");
-      prm.declare_entry("Maximum outer steps", std::to_string(d.max_outer),
-                        Patterns::Integer(1),
-                        "Largest number of outer steps (multiplier updates, "
-                        "penalties or barriers) in one solve.");
+                     parameter::advanced("1", "1e-12"),
+                     "Relative tolerance of the last linear solve.");
+      parameter::declare(prm, "Maximum linear systems",
+                         std::to_string(d.max_steps), Patterns::Integer(1),
+                         parameter::advanced("1", "500"),
+                         "Largest number of linear systems in one solve.");
+      parameter::declare(prm, "Maximum outer iterations",
+                         std::to_string(d.max_outer), Patterns::Integer(1),
+                         parameter::advanced("1", "100"),
+                         "Largest number of outer iterations (multiplier "
+                         "updates, penalties or barriers) in one solve.");
     }
 
     void parse_numbers(ParameterHandler &prm, abut_strategy_options &o,
                        double &nitsche_theta)
     {
       const std::map<std::string, double *> fields = {
-          {"Penalty", &o.penalty},
           {"Penalty growth", &o.penalty_growth},
           {"Penalty cap", &o.penalty_cap},
           {"Nitsche theta", &nitsche_theta},
@@ -246,10 +262,12 @@ namespace abut
           {"Final linear tolerance", &o.final_linear_tolerance}};
       for (const auto &[name, value] : fields)
         *value = prm.get_double(name);
+      o.penalty = parameter::number_or_zero(prm, "Penalty factor");
       o.adaptive_penalty = prm.get_bool("Adaptive penalty");
-      o.max_steps = static_cast<std::int32_t>(prm.get_integer("Maximum steps"));
-      o.max_outer =
-          static_cast<std::int32_t>(prm.get_integer("Maximum outer steps"));
+      o.max_steps =
+          static_cast<std::int32_t>(prm.get_integer("Maximum linear systems"));
+      o.max_outer = static_cast<std::int32_t>(
+          prm.get_integer("Maximum outer iterations"));
     }
   } // namespace
 
@@ -282,30 +300,26 @@ namespace abut
                "or augmented lagrangian.";
     if (tied && interior)
       return with
-             + " cannot glue surfaces: an equality has no interior. Use "
-               "lagrange, penalty or augmented lagrangian.";
+             + " cannot tie surfaces. Use lagrange, penalty or augmented "
+               "lagrangian.";
     if (abut_law_needs_stress(&law) && (tied || !info.row_per_point))
       return with
              + (tied ? " is for contact, not for tied surfaces. Use lagrange, "
                        "penalty or augmented lagrangian."
-                     : " takes the stress at quadrature points: leave "
-                       "Method/Discretisation = auto, or say quadrature "
-                       "point.");
+                     : " takes the stress at quadrature points: set "
+                       "Method/Discretisation = auto or quadrature point.");
     if (info.row_per_point && (tied || hard || abut_law_is_primal_dual(&law)))
-      return coded(ABUT_FAILURE_RICH_MULTIPLIERS,
-                   (tied ? "Tied surfaces" : with)
-                       + " with Method/Discretisation = "
-                       + abut_discretisation_name(discretisation)
-                       + " has "
-                         "more conditions than the surface has unknowns: it "
-                         "locks. Use dual mortar, or penalty or augmented "
-                         "lagrangian.");
+      return coded(
+          ABUT_FAILURE_RICH_MULTIPLIERS,
+          (tied ? "Tied surfaces" : with) + " with Method/Discretisation = "
+              + abut_discretisation_name(discretisation)
+              + " has more constraints than the surface has unknowns: it "
+                "locks. Use dual mortar, penalty or augmented lagrangian.");
     if (info.couples_rows && hard && system == System::condensed)
       return with + " with Method/Discretisation = "
              + abut_discretisation_name(discretisation)
-             + " couples all multipliers: "
-               "they cannot be eliminated row by row. Use Method/System = "
-               "saddle point, or dual mortar.";
+             + " couples all multipliers, which cannot be eliminated one by "
+               "one. Use Method/System = saddle point, or dual mortar.";
     return "";
   }
 
@@ -317,37 +331,33 @@ namespace abut
     const abut_discretisation_info info = discretisation_info(discretisation);
     const std::string with = "Method/Enforcement = " + std::string(law.name);
     if (tied)
-      return "surfaces that are tied do not slide: leave out its friction.";
+      return "tied surfaces do not slide: remove the friction.";
     if (abut_law_is_interior(&law))
       return with
              + " has no friction. Use lagrange, penalty, quadratic penalty, "
                "augmented lagrangian or nitsche.";
     if (abut_law_needs_stress(&law) && method.nitsche_theta != 0.)
-      return with
-             + " has friction with Method/Nitsche theta = 0 only: the other "
-               "variants act on the stress of the body, too, so that tractions "
-               "are no balance of forces along the surface.";
+      return with + " has friction with Method/Nitsche theta = 0 only.";
     if (info.row_per_point && method.segments && !has_obstacle
         && kinematics_info(method.kinematics).points
                != ABUT_CONFIGURATION_CURRENT)
-      return "friction needs points that last: on the common parts of facets "
-             "they change with the pairs. Use Method/Segments = false, or dual "
-             "mortar.";
+      return "friction needs Method/Segments = false or dual mortar: points on "
+             "common parts of facets change with the pairs.";
     return "";
   }
 
   namespace
   {
-    /** Words of Method/Sliding. */
+    /** Words of Method/Contact geometry. */
     struct SlidingWord
     {
       const char *word;
       abut_kinematics kinematics;
     };
     constexpr SlidingWord sliding_words[] = {
-        {"small", ABUT_KINEMATICS_REFERENCE},
-        {"step", ABUT_KINEMATICS_UPDATED},
-        {"large", ABUT_KINEMATICS_CURRENT}};
+        {"reference", ABUT_KINEMATICS_REFERENCE},
+        {"start of step", ABUT_KINEMATICS_UPDATED},
+        {"current", ABUT_KINEMATICS_CURRENT}};
 
     std::optional<abut_kinematics> kinematics_of(const std::string &word)
     {
@@ -362,7 +372,7 @@ namespace abut
     {
       for (const SlidingWord &each : sliding_words)
         if (kinematics == each.kinematics)
-          return std::string("Method/Sliding = ") + each.word + " ";
+          return std::string("Method/Contact geometry = ") + each.word + " ";
       return "Corotational kinematics ";
     }
   } // namespace
@@ -387,25 +397,28 @@ namespace abut
     const std::string why = sliding_text(kinematics);
     if (info.points != ABUT_CONFIGURATION_REFERENCE && !pair.has_geometric_gap)
       return why
-             + "measures gaps where the surfaces are: they must count (leave "
-               "out the gap that stands for them), or use small.";
+             + "needs the gaps of the meshes: set Use mesh gap = true, or use "
+               "reference.";
     if (info.bodies_only && (!is_weighted || pair.has_obstacle))
-      return why + "is for mortar between bodies only. Use Sliding = large.";
+      return why
+             + "is for mortar between bodies only. Use Method/Contact geometry "
+               "= current.";
     if (is_weighted && pair.has_obstacle && !info.weighted_obstacle)
       return why
-             + "follows nodes and quadrature points against an obstacle, not "
-               "Method/Discretisation = "
+             + "against an obstacle is for nodes and quadrature points, not "
+               "for Method/Discretisation = "
              + abut_discretisation_name(discretisation)
              + (pair.has_nodal_weights
                     ? ". Use node to segment or quadrature point."
                     : ". Nodes of quadratic triangles have no weight: use "
                       "quadrature point with penalty, quadratic penalty or "
-                      "augmented lagrangian, linear elements, or small.");
+                      "augmented lagrangian, linear elements, or reference.");
     if (abut_law_needs_stress(&law) && !info.stress_laws)
       return why
              + "does not go with Method/Enforcement = " + std::string(law.name)
-             + ", whose stress is that of the undeformed bodies. Use lagrange, "
-               "penalty, quadratic penalty or augmented lagrangian, or small.";
+             + ", whose stress belongs to the reference configuration. Use "
+               "lagrange, penalty, quadratic penalty or augmented lagrangian, "
+               "or reference.";
     if (abut_law_is_interior(&law) && !info.interior_laws)
       return why
              + "does not go with Method/Enforcement = " + std::string(law.name)
@@ -418,55 +431,48 @@ namespace abut
   {
     const abut_strategy_options defaults = abut_strategy_defaults();
     prm.enter_subsection("Method");
-    prm.declare_entry("Enforcement", "lagrange",
-                      Patterns::Selection("auto|" + law_names()),
-                      "How contact is enforced. `lagrange`: exactly, by "
-                      "multipliers and an active set. `penalty`: by stiff "
-                      "springs, with an error that falls as one over the "
-                      "penalty. `quadratic penalty`: the same with a penalty "
-                      "that grows. `augmented lagrangian`: by springs and "
-                      "multiplier updates, exact in the limit at a moderate "
-                      "penalty. `barrier`: from inside the feasible set, with "
-                      "a barrier that goes to zero. `interior point`: the "
-                      "same with primal-dual steps from any start. `nitsche`: "
-                      "by the bodies' own stress, at quadrature points; for "
-                      "elastic bodies, not for membranes and point masses. "
-                      "`user`: by your own law of pressure and gap. "
-                      "`auto`: lagrange; nitsche (penalty in programs of "
-                      "your own) with `quadrature point`; interior point for "
-                      "membranes on fine meshes without nested iteration.");
+    parameter::declare(
+        prm, "Enforcement", "lagrange",
+        Patterns::Selection("auto|" + law_names()), parameter::basic(),
+        "Enforcement of contact. lagrange: exact, by multipliers and an active "
+        "set. penalty: stiff springs, error of the order 1/penalty. quadratic "
+        "penalty: the same with a growing penalty. augmented lagrangian: "
+        "springs and multiplier updates, exact in the limit. barrier: interior "
+        "points with a barrier that goes to zero. interior point: primal-dual, "
+        "from any start. nitsche: by the stress of elastic bodies, at "
+        "quadrature points. user: your own law of pressure and gap. auto: "
+        "lagrange; with `quadrature point` nitsche (programs of your own: "
+        "penalty); interior point for membranes on fine meshes without nested "
+        "iteration.");
     declare_user_law(prm);
     declare_user_friction(prm);
     declare_discretisation(prm);
     declare_penalty(prm, defaults);
     declare_barrier(prm, defaults);
     declare_stopping(prm, defaults);
-    prm.declare_entry(
-        "Sliding", "auto", Patterns::Selection("auto|small|step|large"),
-        "Where contact is looked at. `small`: on the undeformed "
-        "bodies; gaps are linear in the displacement, but for "
-        "mortar between bodies of large strain, whose partners and "
-        "weights are those, and gaps and directions those of the present "
-        "places. "
-        "`step`: "
-        "on the bodies where they were at the beginning of the "
-        "load or time step. `large`: "
-        "where the bodies are; points move, and their gaps, "
-        "directions and derivatives of these are made anew at "
-        "each linearisation. For nodes and quadrature points, "
-        "and for mortar between bodies. `auto`: large for "
-        "bodies of large strain where that can be, step for "
-        "bodies that move by inertia, else small.");
-    prm.declare_entry("Turning terms", "true", Patterns::Bool(),
-                      "Whether the tangent has what forces and gaps of points "
-                      "that move change by because directions and partners "
-                      "do. Without, Newton's method is of first order, or "
-                      "finds no way: there to see that (doc/failures.md).");
-    prm.declare_entry("System", "auto",
-                      Patterns::Selection("auto|condensed|saddle point"),
-                      "Linear system: `condensed` eliminates the pressures "
-                      "row by row, `saddle point` keeps them as unknowns, "
-                      "`auto` chooses and says which.");
+    parameter::declare(
+        prm, "Contact geometry", "auto",
+        Patterns::Selection("auto|reference|start of step|current"),
+        parameter::basic(),
+        "Configuration in which contact is evaluated. reference: gaps are "
+        "linear in the displacement (small sliding); mortar at finite strain "
+        "updates normals and gaps, which allows large rotation without "
+        "sliding. start of step: that at the start of the load or time step. "
+        "current: points follow the deformation (large sliding). auto: current "
+        "at finite strain where possible, start of step in dynamics, else "
+        "reference.");
+    parameter::declare(prm, "Geometric contact tangent", "true",
+                       Patterns::Bool(), parameter::expert(),
+                       "Whether the tangent has the derivatives of normals and "
+                       "partners, for `Contact geometry = current`. false: "
+                       "linear convergence or failure, for comparison only.");
+    parameter::declare(prm, "System", "auto",
+                       Patterns::Selection("auto|condensed|saddle point"),
+                       parameter::expert(),
+                       "Linear system. condensed: pressures are eliminated "
+                       "constraint by constraint. saddle point: pressures are "
+                       "unknowns. auto: chosen, and reported.");
+    parameter::declare_old_names(prm, "Method");
     prm.leave_subsection();
   }
 
@@ -492,7 +498,7 @@ namespace abut
       discretisation = way;
     else
       discretisation.reset();
-    kinematics = kinematics_of(prm.get("Sliding"));
+    kinematics = kinematics_of(prm.get("Contact geometry"));
     const std::string law = prm.get("Enforcement");
     law_is_automatic = law == "auto";
     options.law = abut_law_find(law_is_automatic ? automatic_law(discretisation)
@@ -512,20 +518,20 @@ namespace abut
     for (int i = ABUT_FRICTION_PRIMAL_DUAL; i <= ABUT_FRICTION_TRESCA; ++i)
       if (prm.get("Friction iteration") == iteration_words[i])
         options.friction_iteration = static_cast<abut_friction_iteration>(i);
-    multiplier_degree = prm.get_integer("Multiplier degree");
-    quadrature_degree = prm.get_integer("Quadrature degree");
+    multiplier_degree = static_cast<unsigned int>(
+        parameter::number_or_zero(prm, "Multiplier degree"));
+    quadrature_degree = static_cast<unsigned int>(
+        parameter::number_or_zero(prm, "Quadrature degree"));
     segments = prm.get_bool("Segments");
-    turning_terms = prm.get_bool("Turning terms");
+    turning_terms = prm.get_bool("Geometric contact tangent");
     prm.leave_subsection();
-    AssertThrow(system != System::saddle_point
-                    || abut_law_is_exact(options.law),
-                dealii::ExcMessage(
-                    std::string("Method/System = saddle point goes with "
-                                "Method/Enforcement = lagrange: with '")
-                    + options.law->name
-                    + "' each pressure follows from its gap, and unknowns of "
-                      "its own would only enlarge the system. Use auto or "
-                      "condensed."));
+    AssertThrow(
+        system != System::saddle_point || abut_law_is_exact(options.law),
+        dealii::ExcMessage(
+            std::string("Method/System = saddle point goes with "
+                        "Method/Enforcement = lagrange: with '")
+            + options.law->name
+            + "' each pressure follows from its gap. Use auto or condensed."));
     AssertThrow(options.barrier_end <= options.barrier_start,
                 dealii::ExcMessage("Method/Barrier end is larger than "
                                    "Method/Barrier start."));

@@ -2,7 +2,6 @@
 // Derivatives of the forces and gaps of points that move with the bodies.
 #include "moving_lines.h"
 
-#include <cmath>
 #include <utility>
 
 namespace abut::shim
@@ -27,6 +26,18 @@ namespace abut::shim
             { terms[block * dim + d].emplace_back(unknown, factor * each); });
     }
 
+    std::vector<NodeIndex> lines_of(const abut_places_view &v,
+                                    const std::size_t i)
+    {
+      return {v.line + v.line_start[i], v.line + v.line_start[i + 1]};
+    }
+
+    std::vector<NodeIndex> columns_of(const abut_places_view &v,
+                                      const std::size_t i)
+    {
+      return {v.column + v.column_start[i], v.column + v.column_start[i + 1]};
+    }
+
     Terms nodes_by_unknowns(const solve::NodeMap &map,
                             const std::vector<std::int32_t> &nodes)
     {
@@ -36,54 +47,28 @@ namespace abut::shim
       return terms;
     }
 
-    /** The derivative of a point's force, of pressures and tractions as in
-     * geometric_lines(), by these; empty: 0. */
-    template <int dim>
-    std::vector<double> derivative_of_force(const abut_points_view &view,
-                                            const std::size_t point,
-                                            const PointPlace<dim> &place,
-                                            const double *row_pressure)
-    {
-      if (place.hessian.empty())
-        return {};
-      // One matrix for each component.
-      const std::size_t n = dim * (1 + place.opposite.size());
-      const std::size_t size =
-          place.lines.empty()
-              ? n * n
-              : dim * place.lines.size() * dim * place.columns.size();
-      std::vector<double> sum(size, 0.);
-      double force = 0.;
-      for (std::int32_t row = view.component_start[point], k = 0;
-           row < view.component_start[point + 1]; ++row, ++k)
-      {
-        const double each = row_pressure == nullptr
-                                ? 1.
-                                : view.weight[point] * row_pressure[row];
-        for (std::size_t e = 0; e < size; ++e)
-          sum[e] += each * place.hessian[k * size + e];
-        force += std::abs(each);
-      }
-      return force > 0. ? sum : std::vector<double>();
-    }
-
     /** Add what the gap of a point of mortar changes by because directions and
      * coefficients do: - sum_l d(n c_l) . x_l, wherever the origin is. */
     template <int dim>
-    void add_gap_change(const solve::NodeMap &map, const PointPlace<dim> &place,
-                        const std::vector<dealii::Point<dim>> &present,
+    void add_gap_change(const PairPoints<dim> &points, const PointRow<dim> &row,
                         solve::GapLine &line)
     {
-      const std::size_t n = dim * place.columns.size();
+      const abut_places_view &v = points.places();
+      const Terms columns =
+          nodes_by_unknowns(points.surface().map, columns_of(v, row.point));
+      const std::vector<NodeIndex> lines = lines_of(v, row.point);
+      const std::size_t n = columns.size();
       std::vector<double> change(n, 0.);
-      for (std::size_t l = 0; l < place.lines.size(); ++l)
+      for (std::size_t l = 0; l < lines.size(); ++l)
       {
-        const auto way = present[place.lines[l]] - present[place.node];
+        const auto way =
+            points.present()[lines[l]] - points.present()[row.place.node];
         for (unsigned int d = 0; d < dim; ++d)
           for (std::size_t b = 0; b < n; ++b)
-            change[b] += way[d] * place.hessian[(l * dim + d) * n + b];
+            change[b] +=
+                way[d]
+                * v.block[v.block_start[row.point] + (l * dim + d) * n + b];
       }
-      const Terms columns = nodes_by_unknowns(map, place.columns);
       for (std::size_t b = 0; b < n; ++b)
         for (const auto &[unknown, factor] : columns[b])
         {
@@ -98,17 +83,23 @@ namespace abut::shim
                                           const double *row_pressure)
   {
     std::vector<MatrixLine> lines;
-    for (std::size_t i = 0; i < points.places().size(); ++i)
+    const abut_places_view &places = points.places();
+    std::vector<double> hessian;
+    for (std::int32_t i = 0; i < points.view().n_points; ++i)
     {
-      const PointPlace<dim> &place = points.places()[i];
-      const std::vector<double> hessian =
-          derivative_of_force(points.view(), i, place, row_pressure);
-      if (hessian.empty())
+      std::int64_t size = places.block_start[i + 1] - places.block_start[i];
+      if (size == 0)
         continue;
-      const bool is_square = place.lines.empty();
-      Terms terms = nodes_by_unknowns(points.surface().map,
-                                      is_square ? place.opposite : place.lines);
-      if (is_square)
+      hessian.resize(size);
+      check(points.host().context,
+            abut_points_force_block(points.handle(), i, row_pressure,
+                                    hessian.data(), &size));
+      if (size == 0)
+        continue;
+      const std::vector<NodeIndex> nodes = columns_of(places, i);
+      Terms terms =
+          nodes_by_unknowns(points.surface().map, lines_of(places, i));
+      if (nodes.empty())
       {
         Terms position(dim);
         points.for_each_secondary(
@@ -117,8 +108,8 @@ namespace abut::shim
         terms.insert(terms.begin(), position.begin(), position.end());
       }
       const Terms columns =
-          is_square ? terms
-                    : nodes_by_unknowns(points.surface().map, place.columns);
+          nodes.empty() ? terms
+                        : nodes_by_unknowns(points.surface().map, nodes);
       const std::size_t n = columns.size();
       for (std::size_t a = 0; a < terms.size(); ++a)
         for (const auto &row : terms[a])
@@ -151,9 +142,9 @@ namespace abut::shim
           solve::GapLine line;
           line.row = static_cast<int>(row.row);
           // Gaps at nearest points have all their derivatives.
-          if (!row.place.lines.empty() && wanted[row.row] != 0)
-            add_gap_change(points.surface().map, row.place, points.present(),
-                           line);
+          if (wanted[row.row] != 0
+              && !columns_of(points.places(), row.point).empty())
+            add_gap_change(points, row, line);
           for (const auto &component :
                nodes_by_unknowns(points.surface().map, {row.place.node}))
             for (const auto &[unknown, factor] : component)

@@ -98,9 +98,9 @@ namespace abut::shim
     for (std::size_t i = 0; i < lower.size() && message.empty(); ++i)
     {
       if (std::isnan(lower[i]) || lower[i] == INFINITY)
-        message = "The obstacle is not a number or is infinite";
+        message = "The obstacle is not finite";
       else if (std::isnan(upper[i]) || upper[i] == -INFINITY)
-        message = of_upper("The upper obstacle is not a number or is infinite");
+        message = of_upper("The upper obstacle is not finite");
       else if (upper[i] < lower[i])
         message = "No displacement can lie between the upper obstacle, "
                   + std::to_string(upper[i]) + ", and the obstacle, "
@@ -136,13 +136,14 @@ namespace abut::shim
         message = "The obstacle (" + std::to_string(lower[i])
                   + ") lies above the prescribed value ("
                   + std::to_string(value) + ")" + at(node.point)
-                  + ". Lower the obstacle there or raise the Dirichlet value.";
+                  + ". Lower the obstacle there, or raise the prescribed "
+                    "displacement.";
       else if (value > upper[i] + slack)
-        message = of_upper(
-            "The upper obstacle (" + std::to_string(upper[i])
-            + ") lies below the prescribed value (" + std::to_string(value)
-            + ")" + at(node.point)
-            + ". Raise the obstacle there or lower the Dirichlet value.");
+        message = of_upper("The upper obstacle (" + std::to_string(upper[i])
+                           + ") lies below the prescribed value ("
+                           + std::to_string(value) + ")" + at(node.point)
+                           + ". Raise the obstacle there, or lower the "
+                             "prescribed displacement.");
     }
     throw_everywhere<ObstacleError>(communicator_, message);
   }
@@ -281,10 +282,10 @@ namespace abut::shim
       const std::vector<double> &gap, const unsigned int n_sweeps,
       la::Vector &displacement) const
   {
-    AssertThrow(tangent.has_matrix(),
-                dealii::ExcMessage("Sweeps over the unknowns need the matrix "
-                                   "of the tangent, not a HostOperator: do "
-                                   "without them."));
+    AssertThrow(
+        tangent.has_matrix(),
+        dealii::ExcMessage("Relaxation sweeps need the matrix of the tangent, "
+                           "not a HostOperator: leave them out."));
     const double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> lower(la::n_owned(displacement), -infinity);
     std::vector<double> upper(la::n_owned(displacement), infinity);

@@ -280,9 +280,8 @@ namespace abut::shim
     std::ostringstream text;
     text.precision(3);
     text << "the body is in the obstacle by " << depth << ", at (" << place
-         << "), where the surface of the pair is not: nothing keeps it out "
-            "there. Move the obstacle, or let the surface have all sides that "
-            "it may meet.";
+         << "), outside of the pair's surface, where nothing prevents it. Move "
+            "the obstacle, or add all sides that it may touch to the surface.";
     return text.str();
   }
 
@@ -292,8 +291,8 @@ namespace abut::shim
   {
     std::ostringstream text;
     text.precision(3);
-    text << "the obstacle has passed between the nodes of the surface and is "
-            "in the body by "
+    text << "the obstacle has passed between the nodes of the surface and "
+            "penetrates the body by "
          << depth << ", at (" << place << "): ";
     return text.str();
   }

@@ -83,10 +83,10 @@ namespace abut::shim
         continue;
       std::ostringstream text;
       text.precision(3);
-      text << "its obstacle turns by " << angle * 180. / M_PI
-           << " degrees within a load step, and friction takes the chord for "
-              "the way along the surface: use load steps of at most 15 degrees "
-              "(Load steps/Steps).";
+      text << "its obstacle rotates by " << angle * 180. / M_PI
+           << " degrees within a load step, of at most 15 degrees: friction "
+              "uses the chord instead of the path along the surface. Use more "
+              "steps (Time stepping/Number of steps).";
       throw ContactError(
           about_pair(pairs_[p].data.name, text.str(), PairField::obstacle));
     }

@@ -4,8 +4,33 @@
 
 #include "pair_points.h"
 
+#include <abut/obstacle_facets.h>
+
 namespace abut::shim
 {
+  /** Throw the message of an obstacle when a call failed. */
+  template <int dim>
+  void check(const RigidObstacle<dim> &obstacle, const abut_status status)
+  {
+    if (status != ABUT_SUCCESS)
+      throw ContactError(obstacle.failure());
+  }
+
+  /** This rank's facets of the secondary of a pair as the core wants them. */
+  template <int dim> class FacetSamples
+  {
+  public:
+    /** Nodes are displaced by @p u. */
+    FacetSamples(const PairPoints<dim> &points, const SurfacePair<dim> &pair,
+                 const std::vector<Direction<dim>> &u);
+
+    abut_facet_samples view = abut_facet_samples_defaults();
+
+  private:
+    std::vector<double> position_;
+    std::vector<std::uint8_t> wanted_;
+  };
+
   /** The obstacle of a pair where it is narrowest for the facets, whose nodes
    * are displaced by @p u. Collective. */
   template <int dim>

@@ -7,17 +7,14 @@
 #include "pair_detection.h"
 
 #include "agree.h"
-#include "pair_coupling.h"
 #include "pair_diagnosis.h"
 #include "pair_friction.h"
 #include "stopwatch.h"
 
 #include <abut/coupling_search.h>
-#include <abut/dealii/coded.h>
+#include <abut/pair_checks.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <unordered_map>
 
 namespace abut::shim
@@ -80,9 +77,12 @@ namespace abut::shim
     std::unordered_map<std::int32_t, std::set<std::size_t>> before;
     const bool at_points =
         discretisation_info(pair.discretisation).row_per_point;
-    for (const PointPlace<dim> &place : points_.places())
+    for (std::int32_t i = 0; i < points_.view().n_points; ++i)
+    {
+      const PointPlace<dim> place = points_.place(i);
       if (place.pair != number && (place.node < 0) == at_points)
         before[at_points ? place.facet : place.node].insert(place.pair);
+    }
     const auto n_before = [&](const std::int32_t index)
     {
       const auto it = before.find(index);
@@ -104,84 +104,25 @@ namespace abut::shim
   }
 
   template <int dim>
-  void PairDetection<dim>::copy_hessian(const SurfacePair<dim> &pair,
-                                        const abut_coupling_view &view,
-                                        const std::int32_t i,
-                                        PointPlace<dim> &place) const
-  {
-    place.hessian.assign(view.hessian + view.hessian_start[i],
-                         view.hessian + view.hessian_start[i + 1]);
-    if (view.least != nullptr)
-      place.least = view.least[i];
-    if (view.line != nullptr)
-    {
-      place.lines.assign(view.line + view.line_start[i],
-                         view.line + view.line_start[i + 1]);
-      place.columns.assign(view.column + view.column_start[i],
-                           view.column + view.column_start[i + 1]);
-    }
-    if (view.primary[i] < 0)
-      return;
-    const auto &facet = surface_.facets[pair.primary.facet[view.primary[i]]];
-    place.opposite.assign(facet.node.begin(),
-                          facet.node.begin() + facet.n_nodes());
-  }
-
-  template <int dim>
   void PairDetection<dim>::append(const std::size_t number,
                                   const std::vector<std::uint8_t> &dropped,
                                   const double motion,
                                   const std::uint32_t tie_axes, const int shift)
   {
     const SurfacePair<dim> &pair = pairs_[number];
-    const SurfaceSide<dim> &side = pair.secondary;
     const std::vector<std::int64_t> id = point_numbers(number, shift);
-    abut_coupling_target target =
-        abut_coupling_target_defaults(points_.handle());
-    target.secondary_node = side.node.data();
-    target.primary_node = pair.primary.node.data();
+    abut_interface_target target =
+        abut_interface_target_defaults(points_.handle());
     target.id = id.data();
     target.tie_axes = tie_axes;
     target.gap = pair.data.gap;
-    target.tangents = pair.data.friction != nullptr;
-    target.flush = !pair.data.geometric_gap;
-    target.kinematics = pair.kinematics;
-    std::vector<double> reference, current, current_primary;
-    if (pair.has_displaced_sides())
-    {
-      reference = places_of(side.node, points_.reference());
-      target.reference = reference.data();
-    }
-    else if (pair.keeps_partners())
-    {
-      current = places_of(side.node, points_.present());
-      current_primary = places_of(pair.primary.node, points_.present());
-      target.current = current.data();
-      target.current_primary = current_primary.data();
-    }
-    build_points(points_.set(), pair, pair.coupling.get(), dropped, motion,
-                 target);
-
-    abut_coupling_view view;
-    check(host_.context, abut_coupling_get(pair.coupling.get(), &view));
-    for (std::int32_t i = 0; i < view.n_points; ++i)
-    {
-      PointPlace<dim> place;
-      place.pair = number;
-      place.node = view.node[i] < 0 ? -1 : side.node[view.node[i]];
-      place.facet = view.node[i] < 0 ? side.facet[view.facet[i]] : -1;
-      for (unsigned int d = 0; d < dim; ++d)
-        place.position[d] = view.position[i * dim + d];
-      if (pair.has_current_directions())
-        copy_hessian(pair, view, i, place);
-      points_.append(std::move(place));
-    }
+    target.motion = motion;
     if (pair.is_displaced())
-      check(host_.context,
-            abut_points_set_origin(
-                points_.handle(), view.first, view.n_points,
-                static_cast<std::int32_t>(points_.present().size()),
-                points_.present_displacement().data()));
+    {
+      target.n_nodes = static_cast<std::int32_t>(points_.present().size());
+      target.displacement = points_.present_displacement().data();
+    }
+    build_points(points_.set(), pair, pair.interface.get(), dropped, target);
     points_.update_view();
   }
 
@@ -215,12 +156,13 @@ namespace abut::shim
                                   const double motion) const
   {
     const Stopwatch watch(host_.detection.seconds);
+    abut_coupling *const coupling =
+        abut_interface_coupling(pair.interface.get());
     const auto statistics = [&]
     {
       abut_search_statistics result;
-      check(host_.context,
-            abut_search_get_statistics(
-                abut_coupling_searcher(pair.coupling.get()), &result));
+      check(host_.context, abut_search_get_statistics(
+                               abut_coupling_searcher(coupling), &result));
       return result;
     };
     run_everywhere<ContactError>(
@@ -232,8 +174,7 @@ namespace abut::shim
               [&]
               {
                 const abut_search_statistics before = statistics();
-                check(host_.context,
-                      abut_coupling_search(pair.coupling.get(), motion));
+                check(host_.context, abut_coupling_search(coupling, motion));
                 const abut_search_statistics after = statistics();
                 host_.detection.searches +=
                     after.n_searches - before.n_searches;
@@ -254,8 +195,7 @@ namespace abut::shim
     unsigned int n_dropped = 0;
     int shift = 0;
     if (pair.has_displaced_sides() && !displaced)
-      displaced.emplace(host_.context, pair.secondary, pair.primary,
-                        points_.reference(), points_.present());
+      displaced.emplace(host_, pair, points_.present());
     if (!pair.data.obstacle)
       search(pair, motion);
     auto groups =
@@ -283,7 +223,7 @@ namespace abut::shim
                                      std::vector<std::uint8_t> &taken,
                                      Displaced &displaced)
   {
-    const std::size_t first = points_.places().size();
+    const std::int32_t first = points_.view().n_points;
     const unsigned int n_dropped =
         make_points(number, motion, taken, displaced);
     displaced.reset();
@@ -291,9 +231,9 @@ namespace abut::shim
     // A node has points of one pair only: two would constrain it twice. Several
     // obstacles may hold one node in a corner.
     if (!pairs_[number].data.obstacle)
-      for (std::size_t i = first; i < points_.places().size(); ++i)
-        if (points_.places()[i].node >= 0)
-          taken[points_.places()[i].node] = 1;
+      for (std::int32_t i = first; i < points_.view().n_points; ++i)
+        if (points_.places().node[i] >= 0)
+          taken[points_.places().node[i]] = 1;
     points_.exchange().merge_marks(surface_, taken);
     inspection_.add_check(number, n_dropped);
   }
@@ -337,30 +277,23 @@ namespace abut::shim
     check(host_.context,
           abut_points_gap(points_.handle(), static_cast<std::int32_t>(n_nodes),
                           made.data(), gap.data()));
-    // Equal distances are those of the first pair, round-off or not.
-    constexpr double nearly = 1. - 1e-8;
-    std::vector<double> least(n_nodes, std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> nearest(n_nodes, pairs_.size());
-    for (std::size_t i = 0; i < points_.places().size(); ++i)
+    for (std::int32_t i = 0; i < points_.view().n_points; ++i)
     {
-      const NodeIndex node = points_.places()[i].node;
-      if (node < 0)
-        continue;
-      const SurfacePair<dim> &pair = pairs_[points_.places()[i].pair];
+      const SurfacePair<dim> &pair = pairs_[points_.places().pair[i]];
       const std::int32_t row = points_.view().component_start[i];
       // Gaps are those of displacement 0.
-      const double distance =
-          std::abs((pair.is_displaced() ? gap[row] : points_.view().gap[row])
-                   - pair.data.gap);
-      if (distance < nearly * least[node])
-      {
-        least[node] = distance;
-        nearest[node] = points_.places()[i].pair;
-      }
+      if (!pair.is_displaced())
+        gap[row] = points_.view().gap[row];
+      gap[row] -= pair.data.gap;
     }
+    std::vector<std::int32_t> nearest(n_nodes);
+    check(host_.context,
+          abut_points_nearest_pair(points_.handle(), gap.data(),
+                                   static_cast<std::int32_t>(n_nodes),
+                                   nearest.data()));
     std::vector<std::uint8_t> marks(n_nodes * pairs_.size(), 0);
     for (std::size_t n = 0; n < n_nodes; ++n)
-      if (nearest[n] < pairs_.size())
+      if (nearest[n] >= 0)
         marks[nearest[n] * n_nodes + n] = 1;
     points_.exchange().merge_marks(surface_, marks);
     for (std::size_t p = 0; p < pairs_.size(); ++p)

@@ -3,6 +3,7 @@
 #define ABUT_SHIM_PAIR_DETECTION_H
 
 #include "pair_inspection.h"
+#include "pair_interface.h"
 
 namespace abut::shim
 {
@@ -53,9 +54,6 @@ namespace abut::shim
      * their node or facet. */
     void append(std::size_t pair, const std::vector<std::uint8_t> &dropped,
                 double motion, std::uint32_t tie_axes, int shift);
-    void copy_hessian(const SurfacePair<dim> &pair,
-                      const abut_coupling_view &view, std::int32_t point,
-                      PointPlace<dim> &place) const;
     /** Search, and append the points of a pair at nodes that are not taken.
      * The sides stay displaced. Returns the number of nodes without a
      * multiplier on all ranks. Collective. */

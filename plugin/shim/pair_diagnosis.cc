@@ -3,6 +3,7 @@
 
 #include "agree.h"
 #include <abut/dealii/coded.h>
+#include <abut/pair_checks.h>
 
 #include <cmath>
 #include <sstream>
@@ -30,19 +31,10 @@ namespace abut::shim
       options.search.reach =
           10. * (secondary.everywhere.extent + primary.everywhere.extent)
           + 1e-30;
-      const auto detection = create_detection(context, secondary.surface.get(),
-                                              primary.surface.get(), options);
       check_everywhere(communicator, context,
-                       abut_detection_run(detection.get(), 0.));
-      abut_detection_view view;
-      check(context, abut_detection_get(detection.get(), &view));
-      for (std::int32_t n = 0; n < view.n_nodes; ++n)
-        if (view.contact[n].facet >= 0)
-        {
-          double &side =
-              view.contact[n].gap >= 0. ? result.above : result.below;
-          side = std::min(side, view.contact[n].distance);
-        }
+                       abut_surface_nearest(context, secondary.surface.get(),
+                                            primary.surface.get(), &options,
+                                            &result.above, &result.below));
       result.above = dealii::Utilities::MPI::min(result.above, communicator);
       result.below = dealii::Utilities::MPI::min(result.below, communicator);
       return result;
@@ -77,7 +69,7 @@ namespace abut::shim
            << (opposed.below > reach
                    ? ", more than the reach of "
                    : ", more than half of the body's thickness, or at an edge "
-                     "or a corner alone, within the reach of ")
+                     "or a corner only, within the reach of ")
            << reach
            << ". Move them apart, or give the pair a larger reach if the "
               "overlap is meant as interference.";
@@ -89,9 +81,9 @@ namespace abut::shim
       if (std::min(any.above, any.below) < INFINITY)
       {
         failure = ABUT_FAILURE_WRONG_SIDE;
-        text << "the outward normals of the two surfaces point the same way. "
-                "Take the sides that face each other, or turn the mesh whose "
-                "cells are inside out.";
+        text << "the outward normals of the two surfaces point in the same "
+                "direction. Use the sides that face each other, or repair the "
+                "mesh with inverted cells.";
       }
       else
         text << "no point of one surface lies opposite the other. Check the "

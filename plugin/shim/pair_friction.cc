@@ -51,26 +51,6 @@ namespace abut::shim
      * part in stick by springs, and below the second number not at all. */
     constexpr double least_tangent_freedom = 0.5, no_freedom = 1e-8;
 
-    /** Where points belong, as the core wants it. */
-    struct PointPlaces
-    {
-      template <int dim> explicit PointPlaces(const PairPoints<dim> &points)
-      {
-        for (const PointPlace<dim> &place : points.places())
-        {
-          node.push_back(place.node);
-          pair.push_back(static_cast<std::int32_t>(place.pair));
-        }
-        view = {sizeof(view),
-                static_cast<std::int32_t>(points.surface().nodes.size()),
-                static_cast<std::int32_t>(points.pairs().size()), node.data(),
-                pair.data()};
-      }
-
-      std::vector<std::int32_t> node, pair;
-      abut_point_places view = {};
-    };
-
     /** Whether what supports leave free at a point moves it along a tangent of
      * @p kinds free only as it moves along the normal or the other tangent. */
     template <int dim>
@@ -236,16 +216,16 @@ namespace abut::shim
     for (const SurfacePair<dim> &pair : points.pairs())
       result.any = result.any || pair.data.friction != nullptr;
     Message message;
-    for (std::size_t i = 0; i < points.places().size() && result.any; ++i)
+    for (std::int32_t i = 0; i < points.view().n_points && result.any; ++i)
     {
       const std::int32_t first = points.view().component_start[i];
       const std::int32_t n = points.view().component_start[i + 1] - first;
-      const SurfacePair<dim> &pair = points.pairs()[points.places()[i].pair];
+      const SurfacePair<dim> &pair = points.pairs()[points.places().pair[i]];
       if (points.view().kind[i] == ABUT_POINT_TIE || n == 1)
         continue;
       const Friction<dim> &friction = *pair.data.friction;
       Message wrong;
-      dealii::Point<dim> place = points.places()[i].position;
+      dealii::Point<dim> place = points.place(i).position;
       if (pair.has_current_points()) // back in the reference configuration
         points.for_each_secondary(i, [&](const NodeIndex node, const double c)
                                   { place -= c * points.made_at(node); });
@@ -267,18 +247,18 @@ namespace abut::shim
     throw_everywhere<ContactError>(points.host().communicator, message);
     if (!result.any)
       return result;
-    const PointPlaces places(points);
     const auto n = static_cast<std::int32_t>(result.first.size());
     std::int32_t n_rivals = 0;
-    check(points.host().context,
-          abut_points_rivals(points.handle(), &places.view, n,
-                             result.first.data(), &n_rivals, nullptr, nullptr));
-    result.rival_point.resize(n_rivals);
-    result.rival_row.resize(n_rivals);
-    check(points.host().context,
-          abut_points_rivals(
-              points.handle(), &places.view, n, result.first.data(), &n_rivals,
-              result.rival_point.data(), result.rival_row.data()));
+    for (int pass = 0; pass < 2; ++pass)
+    {
+      check(points.host().context,
+            abut_points_rivals(points.handle(), n, result.first.data(),
+                               &n_rivals,
+                               pass == 0 ? nullptr : result.rival_point.data(),
+                               pass == 0 ? nullptr : result.rival_row.data()));
+      result.rival_point.resize(n_rivals);
+      result.rival_row.resize(n_rivals);
+    }
     return result;
   }
 
@@ -296,10 +276,10 @@ namespace abut::shim
                ? ABUT_PAIR_FIXED_POINTS
                : 0)
           | (pair.data.friction != nullptr ? ABUT_PAIR_FRICTION : 0));
-    const PointPlaces places(points);
     check(points.host().context,
-          abut_points_cover(points.handle(), &places.view, marks.data(),
-                            keep.data()));
+          abut_points_cover(points.handle(),
+                            static_cast<std::int32_t>(marks.size()),
+                            marks.data(), keep.data()));
   }
 
   template <int dim>
@@ -307,11 +287,11 @@ namespace abut::shim
                     const double *row_gap, const std::uint8_t *row_state,
                     std::vector<PairResult<dim>> &results)
   {
-    const PointPlaces places(points);
     std::vector<abut_friction_sums> sums(points.pairs().size());
     check(points.host().context,
-          abut_points_friction(points.handle(), &places.view, row_pressure,
-                               row_gap, row_state, sums.data()));
+          abut_points_friction(points.handle(),
+                               static_cast<std::int32_t>(sums.size()),
+                               row_pressure, row_gap, row_state, sums.data()));
     for (std::size_t p = 0; p < points.pairs().size(); ++p)
     {
       PairResult<dim> &result = results[p];

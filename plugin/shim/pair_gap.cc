@@ -24,9 +24,9 @@ namespace abut::shim
       std::ostringstream text;
       text.precision(4);
       text << "its gap of " << gap << " leaves nothing of " << of
-           << ", where no point can be deeper than " << depth
-           << ": it would be passed through without contact. Make the gap "
-              "smaller.";
+           << ", but no point can be deeper than " << depth
+           << ": bodies would pass through each other without contact. Make "
+              "the gap smaller.";
       return text.str();
     }
 

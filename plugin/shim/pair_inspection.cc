@@ -10,6 +10,7 @@
 #include "passage_check.h"
 
 #include <abut/dealii/coded.h>
+#include <abut/pair_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,35 +52,19 @@ namespace abut::shim
     // Only what is near the other side: facets at the nodes of rows.
     std::vector<std::uint8_t> near(surface_.nodes.size(), 0);
     const auto mark = [&](const NodeIndex node, double) { near[node] = 1; };
-    for (std::size_t i = 0; i < points_.places().size(); ++i)
-      if (&pairs_[points_.places()[i].pair] == &pair)
-      {
-        points_.for_each_secondary(i, mark);
-        points_.for_each_primary(i, mark);
-      }
+    for (std::int32_t i = 0; i < points_.view().n_points; ++i)
+      if (&pairs_[points_.places().pair[i]] == &pair)
+        points_.for_each_node(i, mark);
     const auto turns = [&](const SurfaceSide<dim> &side)
     {
-      std::vector<std::uint8_t> mask(side.n_facets());
-      abut_surface_view view;
-      check(host_.context, abut_surface_get(side.surface.get(), &view));
-      if (side.n_facets() > 0)
-        check(host_.context,
-              abut_surface_features(side.surface.get(),
-                                    large_rotation * M_PI / 180. - 1e-6,
-                                    mask.data()));
+      std::vector<std::uint8_t> marked;
+      for (const NodeIndex node : side.node)
+        marked.push_back(near[node]);
       bool found = false;
-      for (int f = 0; f < side.n_facets() && !found; ++f)
-      {
-        bool is_near = false;
-        for (std::int32_t i = view.facet_start[f]; i < view.facet_start[f + 1];
-             ++i)
-          is_near = is_near || near[side.node[view.connectivity[i]]] != 0;
-        for (int k = 0; k < 4 && is_near; ++k)
-          found =
-              found
-              || ((mask[f] >> k & 1) != 0
-                  && view.neighbour[4 * static_cast<std::size_t>(f) + k] >= 0);
-      }
+      check(host_.context,
+            abut_surface_bends(side.surface.get(),
+                               large_rotation * M_PI / 180. - 1e-6,
+                               marked.data(), &found));
       return MPI::max(found ? 1 : 0, host_.communicator) != 0;
     };
     const bool secondary = turns(pair.secondary);
@@ -154,11 +139,11 @@ namespace abut::shim
                    ? text(depth / found.facet_size)
                          + " times the size of a facet. "
                    : text(depth / body) + " times the thickness of a body. ")
-            + (is_obstacle ? "Motions throw them out in their first step, in "
-                             "equilibrium its force moves the obstacle out: "
-                             "begin where the two are apart."
-                           : "If that is not meant as interference, move "
-                             "the bodies apart."));
+            + (is_obstacle
+                   ? "In dynamics the first step removes this penetration and "
+                     "adds energy; in equilibrium its force moves the obstacle "
+                     "out. Start with the two apart."
+                   : "Move the bodies apart, unless interference is meant."));
   }
 
   template <int dim>
@@ -191,57 +176,36 @@ namespace abut::shim
   std::string PairInspection<dim>::wrong_side(SurfacePair<dim> &pair) const
   {
     const SurfaceSide<dim> &side = pair.secondary;
-    const double *normal = nullptr;
-    check(host_.context, abut_surface_normals(side.surface.get(), &normal));
-    std::vector<dealii::Point<dim>> points;
-    std::vector<Direction<dim>> normals;
-    for (int n = 0; n < side.n_nodes(); ++n)
-      if (points_.set().is_owned(side.node[n]))
-      {
-        normals.emplace_back();
-        for (unsigned int d = 0; d < dim; ++d)
-          normals.back()[d] = normal[n * dim + d];
-        points.push_back(surface_.nodes[side.node[n]].point);
-      }
+    std::vector<std::uint8_t> owned;
+    for (const NodeIndex node : side.node)
+      owned.push_back(points_.set().is_owned(node));
     // Nodes; those where both normals point the same way; of these, those with
     // the obstacle's material within a facet behind them, in their body.
-    double count[3] = {double(points.size()), 0., 0.};
+    std::int32_t same = 0, material = 0;
     run_everywhere<ContactError>(
         host_.communicator,
         [&]
         {
-          std::vector<double> distance;
-          std::vector<Direction<dim>> outward;
-          pair.data.obstacle->distance(points, distance, &outward);
-          std::vector<std::uint8_t> same_direction(points.size(), 0);
-          for (std::size_t n = 0; n < points.size(); ++n)
-            count[1] += same_direction[n] = outward[n] * normals[n] > 0.;
-          // Along the inward normals; thin obstacles are not to be passed by.
-          constexpr int n_steps = 32;
-          std::vector<std::uint8_t> met(points.size(), 0);
-          for (int k = 0; k < n_steps; ++k)
-          {
-            for (std::size_t n = 0; n < points.size(); ++n)
-              points[n] -= side.everywhere.median / n_steps * normals[n];
-            pair.data.obstacle->distance(points, distance);
-            for (std::size_t n = 0; n < points.size(); ++n)
-              met[n] |= same_direction[n] != 0 && distance[n] < 0.;
-          }
-          count[2] += double(std::count(met.begin(), met.end(), 1));
+          check(*pair.data.obstacle,
+                abut_obstacle_faces_away(
+                    pair.data.obstacle->handle(), side.surface.get(),
+                    owned.data(), side.everywhere.median, &same, &material));
         });
+    double count[3] = {double(std::count(owned.begin(), owned.end(), 1)),
+                       double(same), double(material)};
     MPI::sum(count, host_.communicator, count);
     if (count[1] == 0.)
       return "";
     std::ostringstream text;
-    text << "the outward normals of the surface and of the obstacle point the "
-            "same way at "
+    text << "the outward normals of the surface and of the obstacle point in "
+            "the same direction at "
          << count[1] << " of " << count[0] << " nodes";
     if (2. * count[2] <= count[0])
       return text.str() + ".";
     text << ", and within a facet behind " << count[2]
-         << " of them, where the body is, there is the obstacle's material. "
-            "Turn the obstacle (its Normal, the sign of a distance, Axis or "
-            "Hollow), or take the side of the body that faces it; a thin "
+         << " of them, inside the body, there is the obstacle's material. "
+            "Reverse the obstacle (Normal, sign of a distance, Axis or "
+            "Hollow), or use the side of the body that faces it. A thin "
             "obstacle may have passed through the surface.";
     points_.set().refuse(pair, coded(ABUT_FAILURE_WRONG_SIDE, text.str()));
     return text.str();
@@ -254,7 +218,8 @@ namespace abut::shim
     SurfacePair<dim> &pair = pairs_[number];
     abut_coupling_statistics statistics;
     check(host_.context,
-          abut_coupling_get_statistics(pair.coupling.get(), &statistics));
+          abut_coupling_get_statistics(
+              abut_interface_coupling(pair.interface.get()), &statistics));
     const SideMeasures &sizes = pair.secondary.everywhere;
 
     PairCheck result;
@@ -291,8 +256,7 @@ namespace abut::shim
           ABUT_FAILURE_COARSE_SECONDARY,
           "The secondary surface is " + text(result.size_ratio)
               + " times as coarse as the primary, whose nodes can pass between "
-                "those of the secondary: exchange the two sides, or refine the "
-                "secondary."));
+                "its nodes. Exchange the two sides, or refine the secondary."));
     result.first_overlap = first_overlap(number, result.overlap);
     const Message overlap = overlap_at_start(pair, result);
     if (!overlap.empty())
@@ -306,23 +270,23 @@ namespace abut::shim
           std::max(sizes.smallest, pair.primary.everywhere.smallest);
       const double width = std::pow(result.covered_area, 1. / (dim - 1));
       if (width < narrow_zone * smallest)
-        result.warnings.push_back(coded(
-            ABUT_FAILURE_UNSEEN,
-            "The surfaces meet on a width of " + text(width)
-                + ", where the smallest facet of one of them is "
-                + text(smallest)
-                + ": only its nodes feel that, and it sinks in far less than "
-                  "it should. Refine this surface there."));
+        result.warnings.push_back(
+            coded(ABUT_FAILURE_UNSEEN,
+                  "The surfaces meet on a width of " + text(width)
+                      + ", where the smallest facet of one of them is "
+                      + text(smallest)
+                      + ": the load acts on single nodes, and the penetration "
+                        "is far too small. Refine this surface there."));
     }
     const std::string bends = turning_facets(pair);
     if (!bends.empty())
-      result.warnings.push_back(coded(
-          ABUT_FAILURE_COARSE_CURVE,
-          "Facets of the " + bends + " turn by more than "
-              + text(large_rotation)
-              + " degrees at a node in the contact zone: normals and gaps "
-                "there are those of a polygon, and so are the pressures. "
-                "Refine the surface, or leave the corner out of the pair."));
+      result.warnings.push_back(
+          coded(ABUT_FAILURE_COARSE_CURVE,
+                "Facets of the " + bends + " bend by more than "
+                    + text(large_rotation)
+                    + " degrees at a node in the contact zone: normals, gaps "
+                      "and pressures are those of a polygon. Refine the "
+                      "surface, or leave the corner out of the pair."));
     const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
@@ -358,10 +322,9 @@ namespace abut::shim
         && is_prescribed(number))
       result.warnings.back() =
           coded(ABUT_FAILURE_HELD_NODES,
-                "supports prescribe the displacement along the normal of all "
-                "nodes of the secondary surface, so that contact cannot move "
-                "them. Exchange the two sides, or leave some of the nodes free "
-                "along the normal.");
+                "the normal displacement of all nodes of the secondary surface "
+                "is prescribed, and contact cannot move them. Exchange the two "
+                "sides, or leave nodes free along the normal.");
     points_.checks().push_back(result);
     // Rigid obstacles may come nearer in later steps; the reference
     // configuration of bodies stays as it is.
@@ -396,11 +359,10 @@ namespace abut::shim
     const ObstacleWidth width = passed_between(points_, number, found.place);
     if (pair.data.may_be_apart && way > 2. * pair.data.obstacle->depth())
       points_.set().refuse(
-          pair,
-          too_long_a_step(pair.data, way,
-                          "ends inside of it, past the surface of the pair, "
-                          "by "
-                              + depth.str() + "."));
+          pair, too_long_a_step(
+                    pair.data, way,
+                    "ends inside of it, beyond the surface of the pair, by "
+                        + depth.str() + "."));
     else if (width.is_below_facets())
       points_.set().refuse(
           pair, coded(ABUT_FAILURE_UNSEEN,

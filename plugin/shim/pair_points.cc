@@ -43,30 +43,22 @@ namespace abut::shim
   }
 
   template <int dim>
-  Direction<dim> PairPoints<dim>::relative_displacement(
-      const PointRow<dim> &row, const std::vector<Direction<dim>> &u) const
+  NodePositions<dim>::NodePositions(const PairPoints<dim> &points,
+                                    const std::vector<Direction<dim>> &u)
+      : made_(coordinates(points.present())), displacement_(coordinates(u))
   {
-    const SurfacePair<dim> &pair = pairs()[row.place.pair];
-    Direction<dim> way;
-    // A turn of both sides is no slip: by places, which have been opposite each
-    // other.
-    if (pair.keeps_partners())
-      for_each_node(
-          row.point,
-          [&](const NodeIndex node, const double c) {
-            way += c * (Direction<dim>(surface().nodes[node].point) + u[node]);
-          });
-    else
-      for_each_node(row.point,
-                    [&](const NodeIndex node, const double c)
-                    {
-                      way += c
-                             * (u[node]
-                                - (pair.has_committed_points()
-                                       ? made_at(node)
-                                       : Direction<dim>()));
-                    });
-    return way;
+    for (const auto &node : points.surface().nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        reference_.push_back(node.point[d]);
+    for (const SurfacePair<dim> &pair : points.pairs())
+      kinematics_.push_back(pair.kinematics);
+    view = {sizeof(view),
+            static_cast<std::int32_t>(points.surface().nodes.size()),
+            static_cast<std::int32_t>(kinematics_.size()),
+            reference_.data(),
+            made_.empty() ? nullptr : made_.data(),
+            displacement_.empty() ? nullptr : displacement_.data(),
+            kinematics_.data()};
   }
 
   template <int dim>
@@ -81,28 +73,15 @@ namespace abut::shim
 
   template <int dim> void PairPoints<dim>::clear()
   {
-    places_.clear();
     check(host().context, abut_points_clear(points_));
+    update_view();
   }
 
   template <int dim>
   void PairPoints<dim>::filter(const std::vector<std::uint8_t> &keep)
   {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < places_.size(); ++i)
-    {
-      const auto first = keep.begin() + view_.component_start[i],
-                 last = keep.begin() + view_.component_start[i + 1];
-      if (std::all_of(first, last, [](const std::uint8_t k) { return k == 0; }))
-        continue;
-      places_[i].keep_components({first, last});
-      if (n != i)
-        places_[n] = std::move(places_[i]);
-      ++n;
-    }
-    places_.resize(n);
-    check(set_->host().context, abut_points_filter(points_, keep.data()));
-    check(set_->host().context, abut_points_get(points_, &view_));
+    check(host().context, abut_points_filter(points_, keep.data()));
+    update_view();
   }
 
   template <int dim>
@@ -154,16 +133,17 @@ namespace abut::shim
   std::set<global_dof_index> PairPoints<dim>::used_nodes() const
   {
     std::set<global_dof_index> used;
-    const auto add = [&](const NodeIndex node)
-    { used.insert(surface().nodes[node].dof[0]); };
-    for (std::size_t i = 0; i < places_.size(); ++i)
+    const auto add = [&](const std::int32_t *const node, const std::int64_t n)
     {
-      for (auto e = view_.start[i]; e < view_.start[i + 1]; ++e)
-        add(view_.node[e]);
-      for (const auto *list :
-           {&places_[i].opposite, &places_[i].lines, &places_[i].columns})
-        std::for_each(list->begin(), list->end(), add);
-    }
+      for (std::int64_t i = 0; i < n; ++i)
+        used.insert(surface().nodes[node[i]].dof[0]);
+    };
+    const std::int32_t n = view_.n_points;
+    if (n == 0)
+      return used;
+    add(view_.node, view_.start[n]);
+    add(places_.line, places_.line_start[n]);
+    add(places_.column, places_.column_start[n]);
     return used;
   }
 
@@ -175,8 +155,8 @@ namespace abut::shim
     std::vector<std::int64_t> nodes, facets;
     for (const auto &node : surface().nodes)
       nodes.push_back(node.number);
-    for (const PointPlace<dim> &place : places_)
-      facets.push_back(number_of(surface().facets, place.facet));
+    for (const auto &facet : surface().facets)
+      facets.push_back(facet.number);
     using Dropped = std::pair<std::int64_t, std::uint8_t>;
     std::vector<std::vector<Dropped>> dropped(pairs().size());
     for (std::size_t p = 0; p < pairs().size(); ++p)
@@ -204,22 +184,25 @@ namespace abut::shim
                  ? -1 // not known any more
                  : static_cast<std::int32_t>(it - list.begin());
     };
-    std::vector<NodeIndex> now;
-    for (const std::int64_t number : nodes)
-      now.push_back(index_of(surface().nodes, number));
-    for (std::size_t i = 0; i < places_.size(); ++i)
+    const auto renumbered = [&](const auto &list, const auto &numbers)
     {
-      places_[i].node = places_[i].node < 0 ? -1 : now[places_[i].node];
-      places_[i].facet = index_of(surface().facets, facets[i]);
-      for (auto *list :
-           {&places_[i].opposite, &places_[i].lines, &places_[i].columns})
-        for (NodeIndex &node : *list)
-          node = now[node];
-    }
+      std::vector<std::int32_t> now;
+      for (const std::int64_t number : numbers)
+        now.push_back(index_of(list, number));
+      return now;
+    };
     if (points_ != nullptr)
-      check(set_->host().context,
-            abut_points_renumber(points_, static_cast<std::int32_t>(now.size()),
-                                 now.data()));
+    {
+      const auto node = renumbered(surface().nodes, nodes),
+                 facet = renumbered(surface().facets, facets);
+      check(host().context,
+            abut_points_renumber(
+                points_, static_cast<std::int32_t>(node.size()), node.data()));
+      check(host().context,
+            abut_points_renumber_facets(points_,
+                                        static_cast<std::int32_t>(facet.size()),
+                                        facet.data()));
+    }
     for (std::size_t p = 0; p < pairs().size(); ++p)
     {
       SurfacePair<dim> &pair = pairs()[p];
@@ -269,16 +252,16 @@ namespace abut::shim
   ContactElements::Table PairPoints<dim>::contact_elements() const
   {
     ContactElements::Table result;
-    for (std::size_t i = 0; i < places_.size(); ++i)
+    for (std::int32_t i = 0; i < view_.n_points; ++i)
     {
-      if (!set_->has_lasting_numbers(pairs()[places_[i].pair]))
+      if (!set_->has_lasting_numbers(pairs()[places_.pair[i]]))
         continue;
       std::vector<std::int64_t> opposite;
       for_each_primary(i, [&](const NodeIndex node, double)
                        { opposite.push_back(surface().nodes[node].number); });
       std::sort(opposite.begin(), opposite.end());
       FnvHash hash;
-      hash.mix(places_[i].pair);
+      hash.mix(places_.pair[i]);
       for (const std::int64_t number : opposite)
         hash.mix(number);
       result[view_.component_id[view_.component_start[i]]] = hash.value;
@@ -295,20 +278,25 @@ namespace abut::shim
   }
 
   template <int dim>
+  void PairPoints<dim>::mark_nodes(const std::uint8_t *row_state,
+                                   std::vector<std::uint8_t> &marks) const
+  {
+    if (points_ == nullptr)
+      return;
+    check(host().context,
+          abut_points_mark_nodes(
+              points_, row_state, static_cast<std::int32_t>(pairs().size()),
+              static_cast<std::int32_t>(surface().nodes.size()), marks.data()));
+  }
+
+  template <int dim>
   std::vector<std::uint8_t>
   PairPoints<dim>::touching_nodes(const std::uint8_t *row_state) const
   {
     const std::size_t n_nodes = surface().nodes.size();
     std::vector<std::uint8_t> touching(n_nodes * pairs().size(), 0);
-    for_each_component(
-        [&](const PointRow<dim> &row)
-        {
-          if (row_state != nullptr && row_state[row.row] != ABUT_STATE_OPEN)
-            for_each_secondary(row.point,
-                               [&](const NodeIndex node, double) {
-                                 touching[row.place.pair * n_nodes + node] = 1;
-                               });
-        });
+    if (row_state != nullptr)
+      mark_nodes(row_state, touching);
     for (std::size_t p = 0; p < pairs().size(); ++p)
       for (std::size_t n = 0; n < dropped_[p].size(); ++n)
         if (dropped_[p][n] != 0)
@@ -329,9 +317,7 @@ namespace abut::shim
   {
     const std::size_t n_nodes = surface().nodes.size();
     std::vector<std::uint8_t> held(n_nodes * pairs().size(), 0);
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      for_each_secondary(i, [&](const NodeIndex node, double)
-                         { held[places_[i].pair * n_nodes + node] = 1; });
+    mark_nodes(nullptr, held);
     // Owners of nodes know all facets around them.
     for (std::size_t p = 0; p < pairs().size(); ++p)
       for (std::size_t n = 0; n < dropped_[p].size(); ++n)
@@ -356,6 +342,8 @@ namespace abut::shim
     return held;
   }
 
+  template class NodePositions<2>;
+  template class NodePositions<3>;
   template class PairPoints<2>;
   template class PairPoints<3>;
 } // namespace abut::shim

@@ -3,10 +3,11 @@
 #define ABUT_SHIM_PAIR_POINTS_H
 
 #include "contact_elements.h"
+#include "coordinates.h"
 #include "pair_set.h"
 #include "row_source.h"
 
-#include <abut/points.h>
+#include <abut/contact_measures.h>
 
 namespace abut::shim
 {
@@ -15,7 +16,7 @@ namespace abut::shim
   {
     std::size_t point;
     std::size_t row;
-    const PointPlace<dim> &place;
+    PointPlace<dim> place;
     /** Along which the secondary closes the gap: normal, or axis of a tie. */
     Direction<dim> direction;
   };
@@ -61,9 +62,27 @@ namespace abut::shim
       return view_;
     }
 
-    const std::vector<PointPlace<dim>> &places() const
+    /** Where they belong. */
+    const abut_places_view &places() const
     {
       return places_;
+    }
+
+    PointPlace<dim> place(const std::size_t point) const
+    {
+      PointPlace<dim> result = {static_cast<std::size_t>(places_.pair[point]),
+                                places_.node[point],
+                                places_.facet[point],
+                                {}};
+      for (unsigned int d = 0; d < dim; ++d)
+        result.position[d] = places_.position[point * dim + d];
+      return result;
+    }
+
+    /** Whether a point changes as nodes move. */
+    bool moves(const std::size_t point) const
+    {
+      return places_.block_start[point + 1] > places_.block_start[point];
     }
 
     /** The core's points; null: none yet. */
@@ -103,7 +122,7 @@ namespace abut::shim
       Direction<dim> direction;
       for (unsigned int d = 0; d < dim; ++d)
         direction[d] = -sign * view_.frame[row * std::size_t(dim) + d];
-      return {point, static_cast<std::size_t>(row), places_[point], direction};
+      return {point, static_cast<std::size_t>(row), place(point), direction};
     }
 
     bool is_tangent(const PointRow<dim> &row) const
@@ -120,7 +139,7 @@ namespace abut::shim
     template <typename Function>
     void for_each_row(const Function &function) const
     {
-      for (std::size_t i = 0; i < places_.size(); ++i)
+      for (std::int32_t i = 0; i < view_.n_points; ++i)
         for (std::int32_t row = view_.component_start[i];
              row < view_.component_start[i + 1]; ++row)
           function(component(i, row));
@@ -195,25 +214,15 @@ namespace abut::shim
     std::vector<Direction<dim>>
     displacement_since(const std::vector<Direction<dim>> &u) const;
 
-    /** Relative displacement of the two sides of a row since they were paired,
-     * or since the step began. */
-    Direction<dim>
-    relative_displacement(const PointRow<dim> &row,
-                          const std::vector<Direction<dim>> &u) const;
-
     /** Begin with no points in @p points, which must outlive their use here, of
      * bodies that are displaced so. */
     void start(abut_points *points, const std::vector<Direction<dim>> &u);
 
-    /** Add the data of a point that the core has got, and take its view. */
-    void append(PointPlace<dim> place)
-    {
-      places_.push_back(std::move(place));
-    }
-
+    /** Take the views of points that have been appended. */
     void update_view()
     {
       check(host().context, abut_points_get(points_, &view_));
+      check(host().context, abut_points_get_places(points_, &places_));
     }
 
     /** Take all points out. */
@@ -265,15 +274,33 @@ namespace abut::shim
     /** First unknowns of the nodes that points refer to. */
     std::set<dealii::types::global_dof_index> used_nodes() const;
     void record_place(const std::vector<Direction<dim>> &u);
+    /** See abut_points_mark_nodes(). */
+    void mark_nodes(const std::uint8_t *row_state,
+                    std::vector<std::uint8_t> &marks) const;
 
     PairSet<dim> *set_;
     abut_points *points_ = nullptr;
     abut_points_view view_ = {};
-    std::vector<PointPlace<dim>> places_; ///< [points]
+    abut_places_view places_ = {};
     std::vector<PairCheck> checks_;
     std::vector<std::vector<std::uint8_t>> dropped_; ///< [pairs]
     std::vector<dealii::Point<dim>> present_, reference_;
     std::vector<double> present_displacement_;
+  };
+
+  /** Positions of nodes as the core wants them. */
+  template <int dim> class NodePositions
+  {
+  public:
+    /** @p u: displacements now; empty: not known. */
+    NodePositions(const PairPoints<dim> &points,
+                  const std::vector<Direction<dim>> &u);
+
+    abut_node_positions view = {};
+
+  private:
+    std::vector<double> reference_, made_, displacement_;
+    std::vector<abut_kinematics> kinematics_;
   };
 
   /** [nodes of the side * dim] */

@@ -6,8 +6,8 @@
 #include "agree.h"
 #include "fnv_hash.h"
 #include "host_cells.h"
-#include "pair_coupling.h"
 #include "pair_diagnosis.h"
+#include "pair_interface.h"
 
 #include <abut/dealii/coded.h>
 
@@ -94,7 +94,7 @@ namespace abut::shim
       const auto refuse = [&](const std::string &what)
       { throw ContactError(about_pair(data.name, what)); };
       if (data.obstacle && !data.primary.empty())
-        refuse("it has both a primary surface and an obstacle; leave one out.");
+        refuse("it has a primary surface and an obstacle; leave one out.");
       if (!data.obstacle && data.primary.empty())
         refuse("it has neither a primary surface nor an obstacle.");
       if (data.obstacle && data.tied)
@@ -108,7 +108,8 @@ namespace abut::shim
           list += (list.empty() ? "" : ", ") + std::to_string(id);
         refuse("no facet of the mesh has a boundary id of the " + side
                + " surface ("
-               + (list.empty() ? "which has none; give it ids" : list) + ").");
+               + (list.empty() ? "which has no ids; give it some" : list)
+               + ").");
       };
       if (pair.secondary.everywhere.n_facets == 0)
         refuse_side("secondary", data.secondary);
@@ -206,20 +207,19 @@ namespace abut::shim
     for (const SurfacePair<dim> &other : pairs_)
       if (are_the_same(data, other.data))
         refuse(pair,
-               "some of its surface touches what it touches in pair '"
+               "part of its surface touches the same surface in pair '"
                    + other.data.name
-                   + "', too, and would be held there twice. Remove one of "
-                     "the pairs, or assign each boundary id to one of "
-                     "them.");
+                   + "' and would be constrained twice. Remove one of the "
+                     "pairs, or assign each boundary id to one of them.");
       else if (are_both_sides(data, other.data)
                && (data.tied || !abut_law_has_penalty(&law)))
-        refuse(pair,
-               coded(ABUT_FAILURE_BOTH_SIDES,
-                     "it has the sides of pair '" + other.data.name
-                         + "' exchanged. Conditions on both sides say the same "
-                           "twice, and their pressures are not determined. "
-                           "Leave one pair out, or use penalty or augmented "
-                           "lagrangian."));
+        refuse(
+            pair,
+            coded(ABUT_FAILURE_BOTH_SIDES,
+                  "it has the sides of pair '" + other.data.name
+                      + "' exchanged. Conditions on both sides are the same "
+                        "twice, and pressures are not unique. Leave one pair "
+                        "out, or use penalty or augmented lagrangian."));
     pair.reach = data.reach;
     const std::string fixed =
         data.tied
@@ -418,7 +418,7 @@ namespace abut::shim
   template <int dim> void PairSet<dim>::create_sides(SurfacePair<dim> &pair)
   {
     const ContactPair<dim> &data = pair.data;
-    pair.coupling.reset();
+    pair.interface.reset();
     // The same whatever a rank knows of other ranks' facets.
     const bool is_measured = pair.secondary.everywhere.n_facets > 0;
     const SideMeasures secondary = pair.secondary.everywhere,
@@ -447,8 +447,9 @@ namespace abut::shim
                  [&]
                  {
                    check_sides(pair);
-                   pair.coupling =
-                       make_coupling(host_, pair, pair.discretisation);
+                   pair.interface =
+                       make_interface(host_, pair, &pair - pairs_.data(),
+                                      pair.discretisation, pair.kinematics);
                  });
   }
 
@@ -546,11 +547,11 @@ namespace abut::shim
           if (!std::isfinite(u[node].norm_square()) && message.empty())
           {
             std::ostringstream text;
-            text << "the displacement of the node at ("
-                 << surface_.nodes[node].point
-                 << ") is infinite or not a number. Look for loads, supports "
-                    "and stiffnesses that are not finite, or off by many "
-                    "powers of ten.";
+            text
+                << "the displacement of the node at ("
+                << surface_.nodes[node].point
+                << ") is not finite. Check loads, supports and stiffnesses for "
+                   "values that are not finite or wrong by many powers of ten.";
             message = about_pair(pair.data.name,
                                  coded(ABUT_FAILURE_NOT_FINITE, text.str()));
           }

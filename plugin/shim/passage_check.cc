@@ -22,9 +22,9 @@ namespace abut::shim
       text << ", " << 2. * half << " thick,";
     text << " moves by " << way << " relative to the body within this step and "
          << so_that
-         << " It must not move by more than the thinner of the two is thick: "
-            "make steps shorter (Time/Step), or let it move more slowly (its "
-            "Motion, its velocity, the forces on it).";
+         << " Within a step the motion must be smaller than the thickness of "
+            "the thinner one. Use a smaller Time stepping/Step size, or a "
+            "slower obstacle (Motion, velocity, forces).";
     Message message = coded(ABUT_FAILURE_NO_PARTNER, text.str());
     message.field = PairField::obstacle;
     return message;

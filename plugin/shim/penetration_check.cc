@@ -4,7 +4,8 @@
 
 #include "agree.h"
 #include "coordinates.h"
-#include "facet_grid.h"
+#include "obstacle_width.h"
+#include "pair_interface.h"
 #include "passage_check.h"
 #include "stopwatch.h"
 
@@ -42,37 +43,23 @@ namespace abut::shim
       return result;
     }
 
-    /** Results for points on straight paths past an obstacle. */
-    template <int dim>
-    std::vector<abut_obstacle_path>
-    follow_past(const RigidObstacle<dim> &obstacle,
-                const std::vector<dealii::Point<dim>> &from,
-                const std::vector<dealii::Point<dim>> &to)
-    {
-      std::vector<abut_obstacle_path> result(from.size());
-      if (abut_obstacle_follow(
-              obstacle.handle(), static_cast<std::int32_t>(from.size()),
-              coordinates(from).data(), coordinates(to).data(), result.data())
-          != ABUT_SUCCESS)
-        throw ContactError(obstacle.failure());
-      return result;
-    }
-
     /** Search for missed contact at one displacement. */
     template <int dim> class MissedCheck
     {
     public:
       using Points = std::vector<dealii::Point<dim>>;
 
-      /** Positions of all nodes, which must outlive this object, as the rows
-       * must: reference, at the last commit(), and current. Collective. */
-      MissedCheck(PairPoints<dim> &points, const Points &reference,
-                  const Points &committed, const Points &present,
+      /** Positions of all nodes at the last commit() and now, and their
+       * displacements, which must outlive this object, as the rows must.
+       * Collective. */
+      MissedCheck(PairPoints<dim> &points, const Points &committed,
+                  const Points &present,
+                  const std::vector<Direction<dim>> &displacement,
                   const double tolerance)
           : points_(points),
-            reference_(reference),
             committed_(committed),
             present_(present),
+            displacement_(displacement),
             tolerance_(tolerance),
             held_(points.held_nodes())
       {
@@ -222,8 +209,7 @@ namespace abut::shim
       void check_surfaces(SurfacePair<dim> &pair, const double moved,
                           const double reach)
       {
-        const DisplacedSides<dim> sides(points_.host().context, pair.secondary,
-                                        pair.primary, reference_, present_);
+        const DisplacedSides<dim> sides(points_.host(), pair, present_);
         abut_missed_options options = options_of(pair, reach);
         std::vector<double> start, primary_start;
         if (goes_far(pair, moved))
@@ -265,65 +251,57 @@ namespace abut::shim
         const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
         const RigidPose<dim> now = obstacle.pose();
         const RigidPose<dim> then = points_.set().obstacles().before(true)[p];
+        // Where a node was, seen from the obstacle.
         Points from, to;
-        std::vector<bool> is_free;
-        const auto add_path = [&](const dealii::Point<dim> &start,
-                                  const dealii::Point<dim> &end,
-                                  const bool free)
-        {
-          // Where it was, seen from the obstacle.
-          const Direction<dim> own =
-              transpose(then.rotation) * (start - then.translation);
-          from.emplace_back(now.rotation * own + now.translation);
-          to.push_back(end);
-          is_free.push_back(free);
-        };
         for (const NodeIndex node : pair.secondary.node)
-          if (points_.set().is_owned(node))
-            add_path(begin[node], present_[node], !is_held(node));
+        {
+          const Direction<dim> own =
+              transpose(then.rotation) * (begin[node] - then.translation);
+          from.emplace_back(now.rotation * own + now.translation);
+          to.push_back(present_[node]);
+        }
+        const std::vector<double> start = coordinates(from),
+                                  end = coordinates(to);
+        std::vector<abut_obstacle_path> met(to.size());
+        check(obstacle,
+              abut_obstacle_follow(obstacle.handle(),
+                                   static_cast<std::int32_t>(to.size()),
+                                   start.data(), end.data(), met.data()));
+        double way = 0.;
+        for (std::size_t n = 0; n < to.size(); ++n)
+        {
+          const NodeIndex node = pair.secondary.node[n];
+          const double depth = met[n].depth - pair.data.gap;
+          if (!points_.set().is_owned(node))
+            continue;
+          if (met[n].through != 0)
+            way = std::max(way, (to[n] - from[n]).norm());
+          else if (pair.has_committed_points() && !is_held(node)
+                   && depth > tolerance_)
+            add(pair, to[n], depth);
+        }
         // An obstacle smaller than facets passes between nodes.
         constexpr double most = 16.; // in each direction
         const double n_widths =
             pair.secondary.everywhere.largest / obstacle.depth();
         if (n_widths > 1.)
         {
-          FacetGrid<dim> grid(
-              static_cast<unsigned int>(std::ceil(std::min(n_widths, most))));
-          const auto me = MPI::this_mpi_process(points_.host().communicator);
-          for (const std::int32_t f : pair.secondary.facet)
-          {
-            const auto &facet = points_.surface().facets[f];
-            if (facet.owner != me)
-              continue;
-            const auto at = [&](const Points &position)
-            {
-              return grid.points(facet.kind, [&](const unsigned int a)
-                                 { return position[facet.node[a]]; });
-            };
-            const Points start = at(begin), end = at(present_);
-            for (std::size_t q = 0; q < start.size(); ++q)
-              add_path(start[q], end[q], false);
-          }
-        }
-        const std::vector<abut_obstacle_path> met =
-            follow_past(obstacle, from, to);
-        double way = 0.;
-        for (std::size_t i = 0; i < to.size(); ++i)
-        {
-          const double depth = met[i].depth - pair.data.gap;
-          if (met[i].through != 0)
-            way = std::max(way, (to[i] - from[i]).norm());
-          else if (pair.has_committed_points() && is_free[i]
-                   && depth > tolerance_)
-            add(pair, to[i], depth);
+          FacetSamples<dim> samples(points_, pair, displacement_);
+          samples.view.n =
+              static_cast<std::int32_t>(std::ceil(std::min(n_widths, most)));
+          double between = 0.;
+          check(obstacle, abut_obstacle_passes_facets(
+                              obstacle.handle(), pair.secondary.surface.get(),
+                              &samples.view, start.data(), &between));
+          way = std::max(way, between);
         }
         // No search finds surfaces that are apart again, and rows belong to the
         // far side.
         if (way > 0.)
-          throw ContactError(too_long_a_step(
-              pair.data, way,
-              "passes through it: they are apart again at the end, and nothing "
-              "resists."));
+          throw ContactError(
+              too_long_a_step(pair.data, way,
+                              "passes through it: they are apart again at the "
+                              "end, without any contact force."));
       }
 
       /** The check for an obstacle that is a function of time. */
@@ -360,7 +338,8 @@ namespace abut::shim
       }
 
       PairPoints<dim> &points_;
-      const Points &reference_, &committed_, &present_;
+      const Points &committed_, &present_;
+      const std::vector<Direction<dim>> &displacement_;
       const double tolerance_;
       const std::vector<std::uint8_t> held_; ///< [pairs][nodes]
       const std::uint8_t *held_of_pair_ = nullptr;
@@ -375,14 +354,12 @@ namespace abut::shim
     const std::vector<Direction<dim>> u =
         points.displacements_in_reach(displacement);
     const Stopwatch watch(points.host().detection.seconds);
-    std::vector<dealii::Point<dim>> reference(points.surface().nodes.size()),
-        present(points.surface().nodes.size());
-    for (std::size_t n = 0; n < present.size(); ++n)
+    std::vector<dealii::Point<dim>> committed, present;
+    for (std::size_t n = 0; n < u.size(); ++n)
     {
-      reference[n] = points.surface().nodes[n].point;
-      present[n] = reference[n] + u[n];
+      committed.push_back(points.surface().nodes[n].point);
+      present.push_back(committed[n] + u[n]);
     }
-    std::vector<dealii::Point<dim>> committed(reference);
     PairSet<dim> &set = points.set();
     if (set.moves() && set.searched_from().size() > 0)
     {
@@ -394,7 +371,7 @@ namespace abut::shim
     const std::vector<double> moved =
         set.motions(set.has_steps() ? points.displacement_since(u) : u);
 
-    MissedCheck<dim> missed(points, reference, committed, present, tolerance);
+    MissedCheck<dim> missed(points, committed, present, u, tolerance);
     Message message;
     for (std::size_t p = 0; p < points.pairs().size() && message.empty(); ++p)
       try

@@ -417,7 +417,7 @@ namespace abut
         return "the function of the obstacle threw an unknown exception";
       }
     }
-    return abut_context_message(implementation->context.get());
+    return shim::core_message(implementation->context.get());
   }
 
   template <int dim>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
 #include <abut/dealii/search_parameters.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
@@ -39,63 +41,72 @@ namespace abut
 
     void declare_lists(ParameterHandler &prm, const abut_search_options &d)
     {
-      prm.declare_entry("Algorithm", abut_search_name(d.algorithm),
-                        Patterns::Selection(algorithm_names()),
-                        "How facets near a node are found. All algorithms "
-                        "find the same pairs. `all pairs` looks at each facet "
-                        "for each node, `uniform buckets` sorts facets into "
-                        "cells of one size, `adaptive buckets` into nested "
-                        "buckets that follow the sizes of the facets.");
-      prm.declare_entry("Bucket size",
-                        Patterns::Tools::to_string(d.bucket_size),
-                        NumberPattern::between(0, largest_number),
-                        "Edge of a bucket as a multiple of the median facet "
-                        "size; 0 chooses it from the data. `uniform buckets` "
-                        "raises a value below the search radius and says so; "
-                        "with `adaptive buckets` a bucket holds the facets of "
-                        "a patch of this edge.");
-      prm.declare_entry("Bucket capacity", std::to_string(d.capacity),
-                        Patterns::Integer(0, 4096),
-                        "`adaptive buckets`: most facets in a bucket; 0 "
-                        "leaves it to `Bucket size`.");
-      prm.declare_entry("Reach", Patterns::Tools::to_string(d.reach),
-                        NumberPattern::between(0, largest_number),
-                        "Length within which a facet is a candidate; the "
-                        "larger of this and `Relative reach` counts.");
-      prm.declare_entry("Relative reach",
-                        Patterns::Tools::to_string(d.relative_reach),
-                        NumberPattern::between(0, largest_number),
-                        "The same as a multiple of the size of the facet.");
-      prm.declare_entry("Skin", Patterns::Tools::to_string(d.skin),
-                        NumberPattern::between(0, largest_number),
-                        "Length by which lists of candidates are made too "
-                        "long, so that they serve again after small motion. "
-                        "0: the size of a facet where points move with the "
-                        "bodies; else they are made anew after each motion.");
+      parameter::declare(
+          prm, "Algorithm", abut_search_name(d.algorithm),
+          Patterns::Selection(algorithm_names()), parameter::advanced(),
+          "Search for facets near a node. All algorithms find the same pairs. "
+          "all pairs: each facet for each node. uniform buckets: cells of one "
+          "size. adaptive buckets: nested cells that follow the sizes of the "
+          "facets.");
+      parameter::declare(
+          prm, "Bucket size", "auto",
+          OrWord(NumberPattern::between(0, largest_number), "auto"),
+          parameter::expert("median facet size", "4"),
+          "Edge of a bucket. auto: chosen from the data. uniform buckets: "
+          "raised to the search radius if smaller, with a note in the report. "
+          "adaptive buckets: a bucket has the facets of a patch of this edge.");
+      parameter::declare(prm, "Bucket capacity", "auto",
+                         OrWord(Patterns::Integer(1, 4096), "auto"),
+                         parameter::expert("facets", "32"),
+                         "adaptive buckets: largest number of facets in a "
+                         "bucket. auto: by `Bucket size`.");
+      parameter::declare(
+          prm, "Reach", "none",
+          OrWord(NumberPattern::between(0, largest_number), "none"),
+          parameter::expert("length", "0.2"),
+          "Distance within which a facet is a candidate. The larger of this "
+          "and `Relative reach` counts.");
+      parameter::declare(prm, "Relative reach",
+                         Patterns::Tools::to_string(d.relative_reach),
+                         NumberPattern::between(0, largest_number),
+                         parameter::expert("facet size", "1"),
+                         "Distance within which a facet is a candidate, "
+                         "relative to its size.");
+      parameter::declare(
+          prm, "Skin", "auto",
+          OrWord(NumberPattern::between(0, largest_number), "auto"),
+          parameter::expert("length", "0.1"),
+          "Length added to the reach of candidate lists, so that they stay "
+          "valid after small motion. auto: the size of a facet where contact "
+          "points follow the deformation; else lists are built again after "
+          "each motion.");
     }
 
     void declare_ranking(ParameterHandler &prm, const abut_detection_options &d)
     {
-      prm.declare_entry("Facing angle", degrees(std::acos(-d.normal_cosine)),
-                        NumberPattern::between(0, 180),
-                        "Degrees within which two surfaces must face each "
-                        "other, 0 being exactly opposed.");
-      prm.declare_entry("Extension", Patterns::Tools::to_string(d.extension),
-                        NumberPattern::between(0, largest_number),
-                        "How far a node may lie beyond the border of the "
-                        "primary surface and still be paired with a facet "
-                        "there, as a multiple of the size of the facet.");
-      prm.declare_entry("Self contact", d.self_contact ? "true" : "false",
-                        Patterns::Bool(),
-                        "Whether a surface may touch itself. A node is then "
-                        "not paired with facets that share a node with its "
-                        "own.");
-      prm.declare_entry("Thickness", "", Patterns::Anything(),
-                        "Thickness of bodies: one length, or lengths by "
-                        "boundary id, `1: 0.2; *: 1` (* means all others; an "
-                        "id is meant on each body that has it). A "
-                        "node deeper than half of it is on the wrong side and "
-                        "not paired. Empty: no limit.");
+      parameter::declare(
+          prm, "Facing angle", degrees(std::acos(-d.normal_cosine)),
+          NumberPattern::between(0, 180), parameter::expert("degrees", "60"),
+          "Largest angle between the normals of paired surfaces; 0 is exactly "
+          "opposed.");
+      parameter::declare(
+          prm, "Extension", Patterns::Tools::to_string(d.extension),
+          NumberPattern::between(0, largest_number),
+          parameter::expert("facet size", "0.5"),
+          "Distance of a node beyond the border of the primary surface up to "
+          "which it is paired with a facet there.");
+      parameter::declare(
+          prm, "Self contact", d.self_contact ? "true" : "false",
+          Patterns::Bool(), parameter::advanced(),
+          "Whether a surface may touch itself. Nodes are then not paired with "
+          "facets that share a node with their own.");
+      parameter::declare(
+          prm, "Thickness", "",
+          TextPattern("a number, or numbers by boundary id"),
+          parameter::advanced("length", "1: 0.2; *: 1"),
+          "Thickness of bodies: one length, or lengths by boundary id; * "
+          "stands for all other ids. Nodes deeper than half of it are on the "
+          "wrong side and not paired. Empty: no limit.");
     }
 
     /** The number that is all of @p text; throws. */
@@ -159,16 +170,16 @@ namespace abut
     prm.enter_subsection("Search");
     declare_lists(prm, defaults.search);
     declare_ranking(prm, defaults);
-    prm.declare_entry("Feature angle", degrees(surface.feature_angle),
-                      NumberPattern::between(0.1, 180),
-                      "Degrees by which the normal turns across an edge of "
-                      "the body; nodal normals there are weighted by angle "
-                      "instead of area.");
-    prm.declare_entry("Check orientation",
-                      surface.check_orientation ? "true" : "false",
-                      Patterns::Bool(),
-                      "Whether a surface with facets that are inverted with "
-                      "respect to their neighbours is refused.");
+    parameter::declare(prm, "Feature angle", degrees(surface.feature_angle),
+                       NumberPattern::between(0.1, 180),
+                       parameter::expert("degrees", "30"),
+                       "Rotation of the normal across an edge from which nodal "
+                       "normals are weighted by angle instead of area.");
+    parameter::declare(prm, "Check orientation",
+                       surface.check_orientation ? "true" : "false",
+                       Patterns::Bool(), parameter::expert(),
+                       "Whether surfaces with facets inverted relative to "
+                       "their neighbours are rejected.");
     prm.leave_subsection();
   }
 
@@ -177,12 +188,12 @@ namespace abut
     prm.enter_subsection("Search");
     abut_search_options &lists = detection.search;
     abut_search_find(prm.get("Algorithm").c_str(), &lists.algorithm);
-    lists.bucket_size = prm.get_double("Bucket size");
-    lists.capacity =
-        static_cast<std::int32_t>(prm.get_integer("Bucket capacity"));
-    lists.reach = prm.get_double("Reach");
+    lists.bucket_size = parameter::number_or_zero(prm, "Bucket size");
+    lists.capacity = static_cast<std::int32_t>(
+        parameter::number_or_zero(prm, "Bucket capacity"));
+    lists.reach = parameter::number_or_zero(prm, "Reach");
     lists.relative_reach = prm.get_double("Relative reach");
-    lists.skin = prm.get_double("Skin");
+    lists.skin = parameter::number_or_zero(prm, "Skin");
     detection.normal_cosine =
         -std::cos(prm.get_double("Facing angle") * degree);
     detection.extension = prm.get_double("Extension");

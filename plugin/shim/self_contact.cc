@@ -42,22 +42,21 @@ namespace abut::shim
         for (const BoundaryId id : pair.secondary)
           if (id >= primary_side || !own.insert(id).second)
             throw ContactError(about_pair(
-                pair.name,
-                "boundary id " + std::to_string(id)
-                    + (id >= primary_side
-                           ? " is too large for a surface that touches itself; "
-                             "take one below 2^31."
-                           : " touches itself in another pair, too; make one "
-                             "pair of the two.")));
+                pair.name, "boundary id " + std::to_string(id)
+                               + (id >= primary_side
+                                      ? " is too large for a surface that "
+                                        "touches itself; use an id below 2^31."
+                                      : " touches itself in another pair as "
+                                        "well; join the two pairs.")));
     std::vector<ContactPair<dim>> result = pairs;
     for (auto &pair : result)
     {
       if (touches_itself(pair))
       {
         if (pair.tied)
-          throw ContactError(about_pair(
-              pair.name, "a surface cannot be tied to itself; give its two "
-                         "sides boundary ids of their own."));
+          throw ContactError(
+              about_pair(pair.name, "a surface cannot be tied to itself; give "
+                                    "its two sides different boundary ids."));
         pair.primary.clear();
         for (const BoundaryId id : pair.secondary)
           pair.primary.insert(id | primary_side);

@@ -50,6 +50,11 @@ namespace abut::shim
         points.pairs().size(),
         std::vector<std::uint8_t>(points.surface().nodes.size(), 0));
     std::vector<std::vector<dealii::Point<dim>>> places(points.pairs().size());
+    const NodePositions<dim> nodes(points, u);
+    std::vector<Direction<dim>> motions(points.view().n_points);
+    check(points.host().context,
+          abut_points_motion(points.handle(), &nodes.view, data_of(motions),
+                             nullptr));
     points.for_each_component(
         [&](const PointRow<dim> &row)
         {
@@ -58,7 +63,7 @@ namespace abut::shim
                && !stays(points.pairs()[p]))
               || row_state[row.row] == ABUT_STATE_OPEN)
             return;
-          const Direction<dim> motion = points.relative_displacement(row, u);
+          const Direction<dim> &motion = motions[row.point];
           const Direction<dim> n = row.direction / row.direction.norm();
           result[p].slip =
               std::max(result[p].slip, (motion - (motion * n) * n).norm());

@@ -40,7 +40,7 @@ namespace abut::shim
   /** PairPoints::dropped() of a node that supports hold. */
   constexpr std::uint8_t of_supports = 2;
 
-  /** A pair with its two sides and their coupling. */
+  /** A pair with its two sides. */
   template <int dim> struct SurfacePair
   {
     ContactPair<dim> data;
@@ -117,7 +117,7 @@ namespace abut::shim
              && multiplier_degree == 1;
     }
     SurfaceSide<dim> secondary, primary;
-    Handle<abut_coupling> coupling;
+    Handle<abut_interface> interface;
     /** Thickness of the body that a point must not be pushed through, the
      * primary's or, at an obstacle, its own; and that of the secondary's body;
      * length, 0: not known. */
@@ -155,35 +155,13 @@ namespace abut::shim
     }
   };
 
-  /** Data of a point in addition to the set that it is in. */
+  /** Where a point belongs, see abut/places.h. */
   template <int dim> struct PointPlace
   {
     std::size_t pair;
     std::int32_t node;           ///< -1: quadrature point
     std::int32_t facet;          ///< of a quadrature point
     dealii::Point<dim> position; ///< where the point sits
-    /** For a point that moves: nodes of the primary facet that has the nearest
-     * point, and the square matrix of second derivatives of the gap with
-     * respect to the position, then these nodes, and those of its tangents;
-     * empty: the point is fixed. For mortar: nodes of its lines and columns,
-     * and one matrix; see abut_coupling_view. */
-    std::vector<std::int32_t> opposite;
-    std::vector<std::int32_t> lines, columns;
-    std::vector<double> hessian;
-    /** For mortar that moves: abut_coupling_view::least. */
-    double least = INFINITY;
-
-    /** Let the matrices follow the components of the point that stay. */
-    void keep_components(const std::vector<std::uint8_t> &keep)
-    {
-      const std::size_t size = hessian.size() / keep.size();
-      std::size_t n = 0;
-      for (std::size_t k = 0; k < keep.size() && size > 0; ++k)
-        if (keep[k] != 0)
-          std::copy_n(hessian.begin() + k * size, size,
-                      hessian.begin() + n++ * size);
-      hessian.resize(n * size);
-    }
   };
 
   /** The opposite points of a tangent's point of mortar that moves, at the last

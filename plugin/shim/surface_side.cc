@@ -225,18 +225,6 @@ namespace abut::shim
     return result;
   }
 
-  template <int dim>
-  void move_side(const abut_context *context,
-                 const std::vector<dealii::Point<dim>> &positions,
-                 SurfaceSide<dim> &side)
-  {
-    for (int n = 0; n < side.n_nodes(); ++n)
-      for (unsigned int d = 0; d < dim; ++d)
-        side.position[n * dim + d] = positions[side.node[n]][d];
-    check(context,
-          abut_surface_update(side.surface.get(), side.position.data()));
-  }
-
 #define ABUT_INSTANTIATE(dim)                                                  \
   template struct SurfaceSide<dim>;                                            \
   template SurfaceSide<dim> make_side(                                         \
@@ -245,10 +233,7 @@ namespace abut::shim
   template double found_thickness(abut_context *, const SurfaceSide<dim> &,    \
                                   const SearchParameters &, double);           \
   template SideMeasures measure_everywhere(                                    \
-      const SurfaceSide<dim> &, const ContactSurface<dim> &, MPI_Comm);        \
-  template void move_side(const abut_context *,                                \
-                          const std::vector<dealii::Point<dim>> &,             \
-                          SurfaceSide<dim> &);
+      const SurfaceSide<dim> &, const ContactSurface<dim> &, MPI_Comm);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

@@ -76,55 +76,6 @@ namespace abut::shim
   SideMeasures measure_everywhere(const SurfaceSide<dim> &side,
                                   const ContactSurface<dim> &whole,
                                   MPI_Comm communicator);
-
-  /** Move a side to @p positions of the nodes of the whole. */
-  template <int dim>
-  void move_side(const abut_context *context,
-                 const std::vector<dealii::Point<dim>> &positions,
-                 SurfaceSide<dim> &side);
-
-  /** The sides of a pair where the bodies are, until this goes. */
-  template <int dim> class DisplacedSides
-  {
-  public:
-    using Points = std::vector<dealii::Point<dim>>;
-
-    /** Move them from @p reference, which must outlive this object, to
-     * @p present: positions of the nodes of the whole. */
-    DisplacedSides(const abut_context *context, SurfaceSide<dim> &secondary,
-                   SurfaceSide<dim> &primary, const Points &reference,
-                   const Points &present)
-        : context_(context), sides_{&secondary, &primary}, reference_(reference)
-    {
-      move(present);
-    }
-
-    DisplacedSides(const DisplacedSides &) = delete;
-    DisplacedSides &operator=(const DisplacedSides &) = delete;
-
-    ~DisplacedSides()
-    {
-      try
-      {
-        move(reference_);
-      }
-      catch (const std::exception &)
-      {
-        // Not of points that the sides were made of.
-      }
-    }
-
-  private:
-    void move(const Points &points)
-    {
-      for (SurfaceSide<dim> *side : sides_)
-        move_side(context_, points, *side);
-    }
-
-    const abut_context *const context_;
-    SurfaceSide<dim> *const sides_[2];
-    const Points &reference_;
-  };
 } // namespace abut::shim
 
 #endif

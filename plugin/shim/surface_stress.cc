@@ -94,21 +94,22 @@ namespace abut::shim
     {
       const PairHost<dim> &host = points.host();
       const abut_points_view &view = points.view();
-      const std::vector<PointPlace<dim>> &places = points.places();
+      const abut_places_view &places = points.places();
       const ByElement faces_of(host.dof_handler,
                                [](const dealii::FiniteElement<dim> &fe) {
                                  return ReferenceFaces<dim>(fe.base_element(0));
                                });
       std::vector<global_dof_index> dofs;
       CellNodes nodes(host.constraints);
-      for (std::size_t first = 0, end; first < places.size(); first = end)
+      const auto n_points = static_cast<std::size_t>(view.n_points);
+      for (std::size_t first = 0, end; first < n_points; first = end)
       {
         // Points of a facet follow each other.
-        for (end = first + 1; end < places.size()
-                              && places[end].facet == places[first].facet
-                              && places[end].pair == places[first].pair;)
+        for (end = first + 1; end < n_points
+                              && places.facet[end] == places.facet[first]
+                              && places.pair[end] == places.pair[first];)
           ++end;
-        const auto &facet = points.surface().facets[places[first].facet];
+        const auto &facet = points.surface().facets[places.facet[first]];
         const auto place =
             host.dof_handler.get_triangulation().create_cell_iterator(
                 dealii::CellId(facet.cell));
@@ -121,7 +122,7 @@ namespace abut::shim
         {
           samples.push_back(
               faces_of.of(cell).inside(host.mapping.transform_real_to_unit_cell(
-                  cell, places[i].position)));
+                  cell, points.place(i).position)));
           for (unsigned int d = 0; d < dim; ++d)
             normals[i - first][d] =
                 view.frame[view.component_start[i] * std::size_t(dim) + d];
@@ -148,7 +149,7 @@ namespace abut::shim
                 stencil.node.data(), stencil.coefficient.data());
             if (status != ABUT_SUCCESS)
               throw ContactError(about_pair(
-                  points.pairs()[places[i].pair].data.name,
+                  points.pairs()[places.pair[i]].data.name,
                   "the stress of a body: " + message_of(host.context, status)));
           }
       }

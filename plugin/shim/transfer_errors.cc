@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How well rows hand a uniform pressure to the primary surface: the error that
 // the contact patch test measures, without solving anything.
-#include "pair_coupling.h"
 #include "pair_examination.h"
+#include "pair_interface.h"
 #include "surface_fields.h"
 
 #include <cmath>
@@ -21,35 +21,27 @@ namespace abut::shim
       SurfacePair<dim> &pair = points.pairs()[p];
       if (pair.data.obstacle)
         continue;
-      std::optional<DisplacedSides<dim>> displaced;
-      if (pair.has_current_points())
-        displaced.emplace(points.host().context, pair.secondary, pair.primary,
-                          points.reference(), points.present());
       // The first unknown of a node stands for it.
       const auto unknown = [&](const NodeIndex node)
       { return points.surface().nodes[node].dof[0]; };
       la::Vector exact = SurfaceFields<dim>(points).field();
-      const Handle<abut_coupling> mortar =
-          make_coupling(points.host(), pair, ABUT_DISCRETISATION_MORTAR);
+      // As the rows are weighed, and where there are any.
+      const Handle<abut_interface> mortar =
+          make_interface(points.host(), pair, p, ABUT_DISCRETISATION_MORTAR,
+                         !pair.has_current_points() ? ABUT_KINEMATICS_REFERENCE
+                         : pair.has_mean_gaps()     ? pair.kinematics
+                                                    : ABUT_KINEMATICS_UPDATED);
+      std::optional<DisplacedSides<dim>> displaced;
+      if (pair.has_current_points())
+        displaced.emplace(points.host(), pair, points.present());
       const Handle<abut_points> mortar_points =
           create_points(points.host().context, dim);
-      abut_coupling_target target =
-          abut_coupling_target_defaults(mortar_points.get());
-      std::vector<double> reference;
-      // As the rows are weighed, and where there are any.
-      if (pair.has_current_points())
-      {
-        reference = places_of(pair.secondary.node, points.reference());
-        target.reference = reference.data();
-        target.kinematics = discretisation_info(pair.discretisation).is_weighted
-                                ? pair.kinematics
-                                : ABUT_KINEMATICS_UPDATED;
-      }
-      target.secondary_node = pair.secondary.node.data();
-      target.primary_node = pair.primary.node.data();
+      abut_interface_target target =
+          abut_interface_target_defaults(mortar_points.get());
+      target.motion = points.set().motion(pair, u);
       build_points(points.set(), pair, mortar.get(),
                    std::vector<std::uint8_t>(pair.secondary.n_nodes(), 0),
-                   points.set().motion(pair, u), target);
+                   target);
       abut_points_view view;
       check(points.host().context, abut_points_get(mortar_points.get(), &view));
       for (std::int32_t i = 0; i < view.n_points; ++i)

@@ -55,9 +55,9 @@ namespace abut::solve
   void Condensation::make_saddle_point()
   {
     if (!stiffness_.has_matrix())
-      throw SolverFailure("Constraints share all their unknowns, which makes "
-                          "the system a saddle point. That needs a matrix: "
-                          "give solve() one, or use dual multipliers.");
+      throw SolverFailure("Constraints share all their unknowns: the system is "
+                          "a saddle point, which needs a matrix. Give solve() "
+                          "a matrix, or use dual multipliers.");
     saddle_point_ = std::make_unique<SaddlePoint>(parameters_);
     saddle_point_->set_near_null_space(space_);
     saddle_point_->reinit(stiffness_, *rows_, row_stiffness_);

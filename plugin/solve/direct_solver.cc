@@ -14,13 +14,12 @@ namespace abut::solve
     void check(const std::string &failure)
     {
       if (!failure.empty())
-        throw SolverFailure(coded(
-            ABUT_FAILURE_LINEAR_SOLVER,
-            "The direct solver failed (" + failure
-                + "): there is too little memory, or the matrix is singular, "
-                  "as "
-                  "where nothing holds a body. Try Solver/Linear solver = "
-                  "iterative."));
+        throw SolverFailure(
+            coded(ABUT_FAILURE_LINEAR_SOLVER,
+                  "The direct solver failed (" + failure
+                      + "): too little memory, or a singular matrix, such as "
+                        "of a body without supports. Try Solver/Linear solver "
+                        "= iterative."));
     }
   } // namespace
 

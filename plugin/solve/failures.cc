@@ -18,15 +18,15 @@ namespace abut::solve
     text << static_cast<char>(std::toupper(method[0])) << method.substr(1)
          << " ended after " << failure.last_step
          << " iterations with a residual of " << failure.last_residual
-         << " where " << tolerance << " was asked for. ";
+         << " where " << tolerance << " is required. ";
     if (std::isfinite(failure.last_residual))
-      text << "The matrix is badly conditioned or nearly singular: try "
-              "Solver/Linear solver = direct, a smaller Method/Penalty, or "
-              "more Solver/Maximum iterations; a body without supports needs "
-              "some.";
+      text << "The matrix is badly conditioned or nearly singular. Check for "
+              "bodies without supports; try Solver/Linear solver = direct, a "
+              "smaller Method/Penalty factor, or more Solver/Maximum "
+              "iterations.";
     else
-      text << "A value is not a number: look for infinite data, or for a "
-              "matrix that is singular because nothing holds a body.";
+      text << "A value is not finite. Check for infinite data and for bodies "
+              "without supports.";
     throw SolverFailure(coded(std::isfinite(failure.last_residual)
                                   ? ABUT_FAILURE_LINEAR_SOLVER
                                   : ABUT_FAILURE_NOT_FINITE,
@@ -39,9 +39,8 @@ namespace abut::solve
       return;
     std::ostringstream text;
     text << "The direct solver left a residual of " << after << " of " << before
-         << ". The matrix is singular or nearly so: look for a body that "
-            "nothing "
-            "holds, and for materials or penalties of very different "
+         << ". The matrix is singular or nearly singular. Check for bodies "
+            "without supports and for materials or penalties of very different "
             "stiffness.";
     throw SolverFailure(coded(ABUT_FAILURE_LINEAR_SOLVER, text.str()));
   }

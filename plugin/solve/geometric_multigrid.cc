@@ -177,13 +177,13 @@ namespace abut::solve
                                   const NearNullSpace &space)
     {
       if (space.meshes == nullptr)
-        return "the coarser meshes are not known";
+        return "there are no coarser meshes";
       const bool has_others =
           space.meshes->missing.empty()
           && space.meshes->unknown.size() != matrix.local_size();
       if (dealii::Utilities::MPI::logical_or(has_others,
                                              matrix.get_mpi_communicator()))
-        return "there are unknowns beside those of the mesh";
+        return "there are unknowns besides those of the mesh";
       return space.meshes->missing;
     }
   } // namespace

@@ -23,8 +23,8 @@ namespace abut::solve
     if (std::isfinite(first))
     {
       std::ostringstream text;
-      text << "HostOperator::diagonal() must be positive and finite, that of "
-              "constrained unknowns too, and is not at unknown "
+      text << "HostOperator::diagonal() must be positive and finite, for "
+              "constrained unknowns as well; it is not at unknown "
            << first << '.';
       throw std::invalid_argument(text.str());
     }
@@ -101,12 +101,12 @@ namespace abut::solve
                         const std::vector<double> &diagonal,
                         const CommonArray<std::uint8_t> &prescribed)
   {
-    check_apart(stiffness, diagonal, prescribed, true,
-                "puts forces on free unknowns by displacements of prescribed "
-                "ones");
-    check_apart(stiffness, diagonal, prescribed, false,
-                "puts forces on prescribed unknowns by displacements of free "
-                "ones");
+    check_apart(
+        stiffness, diagonal, prescribed, true,
+        "couples forces on free unknowns to displacements of prescribed ones");
+    check_apart(
+        stiffness, diagonal, prescribed, false,
+        "couples forces on prescribed unknowns to displacements of free ones");
   }
 
   std::string faults(const Stiffness &stiffness, const bool is_symmetric)
@@ -125,7 +125,7 @@ namespace abut::solve
     if (!std::isfinite(size))
       text << " precondition() gives values that are not finite.";
     else if (again.l2_norm() > round_off * mx.l2_norm())
-      text << " precondition() gives something else each time.";
+      text << " precondition() gives different results for the same vector.";
     else if (std::abs(forth - back) > round_off * size)
       text << " precondition() is not symmetric: x.My = " << forth
            << ", y.Mx = " << back << " for two vectors without structure.";

@@ -99,7 +99,7 @@ namespace abut::solve
       text << "With the preconditioner of the program, " << krylov_method()
            << " ended after " << failure.last_step
            << " iterations with a residual of " << failure.last_residual
-           << " where " << tolerance << " was asked for."
+           << " where " << tolerance << " is required."
            << faults(stiffness_, is_symmetric_)
            << " Try more Solver/Maximum iterations, or give a matrix.";
       throw SolverFailure(coded(std::isfinite(failure.last_residual)

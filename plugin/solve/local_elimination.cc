@@ -51,8 +51,8 @@ namespace abut::solve
     if (worst != ABUT_SUCCESS)
       throw SolverFailure(
           worst == ABUT_UNSUPPORTED
-              ? "A contact law determines neither the pressure nor the gap of "
-                "a constraint: both derivatives are 0."
+              ? "A contact law determines neither pressure nor gap of a "
+                "constraint: both derivatives are 0."
               : std::string("Contact laws cannot be eliminated: ")
                     + abut_status_text(static_cast<abut_status>(worst)) + ".");
     for (int b = 0; !blocks_.empty() && b < blocks_.n_blocks(); ++b)

@@ -40,9 +40,9 @@ namespace abut::solve
     for (int i = 0; i < rows.n_rows(); ++i)
       AssertThrow(rows.end(i) - rows.begin(i) == 1
                       && rows.column(rows.begin(i)) < rows.n_owned(),
-                  dealii::ExcMessage("Condensation node by node needs rows "
-                                     "with one entry; use System = saddle "
-                                     "point for others."));
+                  dealii::ExcMessage(
+                      "Condensation by node needs constraints with one "
+                      "unknown; use Method/System = saddle point for others."));
   }
 
   std::vector<PreconditionerState> NodalCondensation::state() const

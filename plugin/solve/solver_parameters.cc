@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
 #include <abut/dealii/solver_parameters.h>
+#include <abut/dealii/text_pattern.h>
 
 namespace abut
 {
@@ -21,47 +23,45 @@ namespace abut
     using dealii::Patterns::Selection;
     const SolverParameters standard;
     prm.enter_subsection("Solver");
-    prm.declare_entry(
-        "Linear solver", "auto", Selection("auto|iterative|direct|geometric"),
-        "iterative: conjugate gradients with smoothed aggregation (FGMRES for "
-        "saddle points) by Trilinos' ML, or MueLu where there is no ML; "
-        "direct: a factorisation by Trilinos' Amesos or Amesos2 (MUMPS where "
-        "it "
-        "is built in, else KLU); geometric: conjugate gradients with "
-        "multigrid over the meshes that the mesh was refined from, for "
-        "elements of degree 1 and 2 (elsewhere as iterative, and the report "
-        "says why); auto: direct up to `Direct limit` unknowns, else geometric "
-        "where that is possible and the tangent symmetric, else iterative.");
-    prm.declare_entry("Maximum iterations",
-                      std::to_string(standard.max_iterations), Integer(1),
-                      "Iterations after which a linear solve is given up.");
-    prm.declare_entry("Direct limit", std::to_string(standard.direct_limit),
-                      Integer(0),
-                      "Unknowns up to which auto takes the direct solver. 0: "
-                      "500 for scalar fields, 20000 for displacements in the "
-                      "plane, 3000 in space; a factorisation then takes some "
-                      "tenths of a second at most.");
-    prm.declare_entry("Aggregation threshold",
-                      std::to_string(standard.aggregation_threshold),
-                      NumberPattern::between(0., 1.),
-                      "Smoothed aggregation: connections weaker than this "
-                      "fraction are dropped. Displacements keep all.");
-    prm.declare_entry(
-        "Smoother sweeps", std::to_string(standard.smoother_sweeps), Integer(1),
+    parameter::declare(
+        prm, "Linear solver", "auto",
+        Selection("auto|iterative|direct|geometric"), parameter::advanced(),
+        "Linear solver. iterative: conjugate gradients with smoothed "
+        "aggregation of Trilinos' ML (MueLu where ML is missing), FGMRES for "
+        "saddle points. direct: factorisation by Trilinos' Amesos or Amesos2 "
+        "(MUMPS, else KLU). geometric: conjugate gradients with multigrid over "
+        "the meshes of refinement, for degree 1 and 2. auto: direct up to "
+        "`Direct limit` unknowns, then geometric for symmetric tangents where "
+        "it is possible, else iterative.");
+    parameter::declare(prm, "Maximum iterations",
+                       std::to_string(standard.max_iterations), Integer(1),
+                       parameter::advanced("1", "2000"),
+                       "Iterations after which a linear solve has failed.");
+    parameter::declare(prm, "Direct limit", "auto", OrWord(Integer(1), "auto"),
+                       parameter::expert("unknowns", "50000"),
+                       "Number of unknowns up to which `Linear solver = auto` "
+                       "is direct. auto: 500 for scalar fields, 20000 for "
+                       "displacements in 2D, 3000 in 3D.");
+    parameter::declare(
+        prm, "Aggregation threshold",
+        std::to_string(standard.aggregation_threshold),
+        NumberPattern::between(0., 1.), parameter::expert("1", "0.01"),
+        "Smoothed aggregation of scalar fields: relative size below which "
+        "connections are dropped. Displacements keep all connections.");
+    parameter::declare(
+        prm, "Smoother sweeps", std::to_string(standard.smoother_sweeps),
+        Integer(1), parameter::expert("1", "3"),
         "Smoothed aggregation: degree of the Chebyshev smoother.");
-    prm.declare_entry("Saddle point augmentation",
-                      std::to_string(standard.augmentation),
-                      NumberPattern::from(0.),
-                      "Saddle-point systems: the leading block is augmented "
-                      "by this multiple of the local stiffness on rows in "
-                      "contact, which changes the condition number and not "
-                      "the solution.");
-    prm.declare_entry(
-        "Contact filter", standard.contact_filter ? "true" : "false",
-        dealii::Patterns::Bool(),
+    parameter::declare(
+        prm, "Saddle point augmentation", std::to_string(standard.augmentation),
+        NumberPattern::from(0.), parameter::expert("local stiffness", "1"),
+        "Saddle point systems: augmentation of the leading block at active "
+        "constraints. Changes the condition number, not the solution.");
+    parameter::declare(
+        prm, "Contact filter", standard.contact_filter ? "true" : "false",
+        dealii::Patterns::Bool(), parameter::expert(),
         "Whether contact springs that are too stiff for multigrid are filtered "
-        "by a direct solve on the unknowns that they act on. Off, to see what "
-        "that saves.");
+        "by a direct solve on their unknowns. false: for comparison only.");
     prm.leave_subsection();
   }
 
@@ -74,7 +74,8 @@ namespace abut
              : word == "geometric" ? Linear::geometric
                                    : Linear::automatic;
     max_iterations = prm.get_integer("Maximum iterations");
-    direct_limit = prm.get_integer("Direct limit");
+    direct_limit = static_cast<unsigned int>(
+        parameter::number_or_zero(prm, "Direct limit"));
     aggregation_threshold = prm.get_double("Aggregation threshold");
     smoother_sweeps = prm.get_integer("Smoother sweeps");
     augmentation = prm.get_double("Saddle point augmentation");

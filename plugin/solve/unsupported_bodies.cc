@@ -639,15 +639,15 @@ namespace abut::solve
                                           const double n_rows) const
   {
     fail(free, n_rows, "rows in contact",
-         "tie it, or begin with the bodies in contact: a smaller initial gap, "
-         "or a prescribed displacement in place of a force");
+         "tie it, or start with the bodies in contact: a smaller initial gap, "
+         "or a prescribed displacement instead of a force");
   }
 
   void UnsupportedBodies::fail_slipping(const Combination &free) const
   {
     throw_failure(free,
                   coded(ABUT_FAILURE_FREE_SLIDING,
-                        "Friction does not hold the bodies: " + describe(free)
+                        "Friction does not carry the bodies: " + describe(free)
                             + " once its contacts slip. Support the body "
                               "in that direction, load it less along the "
                               "surface, or give the pair a larger "
@@ -659,15 +659,15 @@ namespace abut::solve
                                const std::string &or_else) const
   {
     std::ostringstream text;
-    text << "Nothing holds the bodies: " << describe(free[0]);
+    text << "Bodies without supports: " << describe(free[0]);
     if (free.size() > 1)
       text << ", and " << free.size() - 1 << " more such motion"
            << (free.size() > 2 ? "s" : "") << " meet";
     text << (free.size() > 1 ? "" : ", which meets")
          << " no resistance from supports or from the " << n_rows << ' '
          << which
-         << ". Support the body in that direction (contact without friction "
-            "holds it along the normal only), "
+         << ". Support the body in that direction (frictionless contact "
+            "constrains the normal only), "
          << or_else << '.';
     throw_failure(free[0], coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
   }

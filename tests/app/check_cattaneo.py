@@ -47,9 +47,9 @@ class Scene:
     def run(self, steps, back=0.):
         aside = f"t > 2 ? {self.pull} - {back}*(t - 2) : {self.pull}*(t - 1)"
         summary, _ = p.solve_with(self.name + ".prm", {
-            "Load steps/Steps": steps, "Load steps/End time": steps,
+            "Time stepping/Number of steps": steps, "Time stepping/End time": steps,
             "Output/Pictures": "false", "Refinement/Adaptive cycles": self.cycles,
-            "Body 2/Support": f"1: (t > 1 ? ({aside}) : 0), "
+            "Body 2/Prescribed displacement": f"1: (t > 1 ? ({aside}) : 0), "
             f"(t < 1 ? -{self.press}*t : -{self.press})"})
         return summary, [node for node in p.table("pair_1.csv")
                          if node["status"] > 0]

@@ -50,7 +50,7 @@ def finished(folder=OUT):
     """Finished runs with the times at which they were written. The folder of
     one that is going on is renamed between listing and looking."""
     return {path.parent.name: path.stat().st_mtime_ns
-            for path in folder.glob("runs/*/run.json")
+            for path in folder.glob("runs/*/record.json")
             if path.parent.suffix != ".part"}
 
 
@@ -69,8 +69,8 @@ file = chart(
     curve("lagrange", {"Method/Enforcement": "lagrange"})
     + curve("soft", {"Method/Enforcement": "penalty",
                      "Refinement/Level": "2 | 3"},
-            "set Axis = Method/Penalty\nset Values = 100 | 1e4")
-    + curve("hasty", {"Method/Maximum steps": "1",
+            "set Axis = Method/Penalty factor\nset Values = 100 | 1e4")
+    + curve("hasty", {"Method/Maximum linear systems": "1",
                       "Refinement/Nested iteration": "false"},
             "set Values = 4")
     + curve("saddle", {"Method/System": "saddle point",
@@ -83,10 +83,10 @@ names = [(row["curve"], row["axis"], row["value"]) for row in table]
 level = "Refinement/Level"
 p.expect(names == [("lagrange", level, "2"), ("lagrange", level, "3"),
                    ("lagrange", level, "4"),
-                   ("soft, 2", "Method/Penalty", "100"),
-                   ("soft, 2", "Method/Penalty", "1e4"),
-                   ("soft, 3", "Method/Penalty", "100"),
-                   ("soft, 3", "Method/Penalty", "1e4"),
+                   ("soft, 2", "Method/Penalty factor", "100"),
+                   ("soft, 2", "Method/Penalty factor", "1e4"),
+                   ("soft, 3", "Method/Penalty factor", "100"),
+                   ("soft, 3", "Method/Penalty factor", "1e4"),
                    ("hasty", level, "4"), ("saddle, lagrange", level, "2"),
                    ("saddle, penalty", level, "2"), ("long", level, "11")],
          f"curves {names}")
@@ -145,8 +145,8 @@ line = [line for line in (OUT / "cheapest.md").read_text().splitlines()
 p.expect(f"({best['value']})" in line.split("|")[2],
          f"cheapest.md: {line}")
 for name in ("error-time", "error-work"):
-    p.expect((OUT / (name + ".svg")).exists() or "gnuplot" in result.stderr,
-             f"no {name}.svg")
+    for ending in ("svg", "png"):
+        p.expect((OUT / f"{name}.{ending}").exists(), f"no {name}.{ending}")
 
 # Once more: nothing is run again. A whole run cut off in its last file is.
 before = finished()
@@ -154,7 +154,7 @@ p.expect(len(before) == 10, f"{len(before)} runs")
 run(file)
 p.expect(finished() == before, "finished runs were made again")
 victim = sorted(before)[0]
-half = OUT / "runs" / victim / "run.json"
+half = OUT / "runs" / victim / "record.json"
 half.write_text(half.read_text()[:40])
 run(file)
 after = finished()
@@ -182,14 +182,15 @@ part.mkdir()
 
 
 def children():
-    """Processes that work in the folder of the chart."""
+    """Processes that work in the folder of the chart: `abut serve`, and the
+    run that is forked from it."""
     found = []
     for folder in os.listdir("/proc"):
         try:
             words = open(f"/proc/{folder}/cmdline", "rb").read().split(b"\0")
             state = open(f"/proc/{folder}/stat").read().rsplit(")")[1].split()
             if (os.readlink(f"/proc/{folder}/cwd") == str(p.folder)
-                    and b"run" in words and state[0] != "Z"):
+                    and b"serve" in words and state[0] != "Z"):
                 found.append(folder)
         except (OSError, ValueError):
             pass
@@ -279,6 +280,28 @@ for name, *texts in (
 for name in ("contact_impulse[0]", "energy_gain"):
     result = quantity(name)
     p.expect(result.returncode == 0, f"quantity {name}: {result.stderr}")
+
+# The page has the parameters that the command prints.
+result = p.call("chart", "--parameters")
+p.expect(result.returncode == 0 and "**Error/Quantity**" in result.stdout
+         and result.stdout in (p.source / "doc/charts.md").read_text(),
+         "doc/charts.md is not what abut chart --parameters prints")
+
+# Time is the median of the repeats, of processor time without what a run
+# measures and writes.
+run(chart("set Values = 3\nset Repeats = 4", GOOD), "--set", "Repeats=3")
+row, = rows()
+times = []
+for repeat in range(3):
+    summary = json.loads((OUT / "runs" / f"{row['run']}-{repeat}"
+                          / "summary.json").read_text())
+    times.append(summary["processor_seconds"] - sum(
+        summary["sections"].get(name, {}).get("processor_seconds", 0)
+        for name in ("results", "output")))
+p.expect(row["repeats"] == "3", f"repeats {row['repeats']}")
+for key, value in (("time", statistics.median(times)),
+                   ("fastest", min(times)), ("slowest", max(times))):
+    p.close(float(row[key]), value, 1e-12, key)
 
 if p.short:
     p.finish()

@@ -78,7 +78,7 @@ for number, clearance in enumerate(CLEARANCES):
         signed = [f"Body {k + 1}/Body force={sign * force!r}*t"
                   + ", 0" * (dim - 1) for k, force in enumerate(forces)]
         settings = [*METHODS[number % 4],
-                    f"Method/Sliding={SLIDING[(number + sign) % 3]}"]
+                    f"Method/Contact geometry={SLIDING[(number + sign) % 3]}"]
         result = run(scene, *signed, *settings)
         what = (f"row {number}, {n} blocks, clearance {clearance}, {sign}, "
                 f"{settings}")
@@ -205,7 +205,7 @@ for number, clearance in enumerate((0., 1e-12, 1e-6, 1e-3, 0.1, 0.3)):
     angle = random.uniform(0, 2 * math.pi)
     unit = (math.cos(angle), math.sin(angle))
     scene = pin("pin.prm", 2, clearance, [size * u for u in unit], 2)
-    result = run(scene, f"Method/Sliding={SLIDING[number % 2]}")
+    result = run(scene, f"Method/Contact geometry={SLIDING[number % 2]}")
     what = f"pin {number}, clearance {clearance}, load {size}"
     p.expect(result.returncode == 0 and "ABUT-F24" not in result.stderr,
              f"{what}: {result.stderr}")
@@ -227,7 +227,7 @@ for number, clearance in enumerate((0., 1e-12, 1e-6, 1e-3, 0.1, 0.3) * 2):
     unit = (math.cos(angle), math.sin(angle))
     scene = pin("pin.prm", 2, clearance, [size * u for u in unit], 2)
     material = ("hooke", "neo-hooke")[number // 6]
-    result = run(scene, "Method/Sliding=large", f"Pair 1/Friction={friction}",
+    result = run(scene, "Method/Contact geometry=current", f"Pair 1/Friction={friction}",
                  f"Body 1/Material={material}", "Output/Points=1: 0, 0")
     what = (f"moving pin {number}, {material}, friction {friction}, "
             f"clearance {clearance}, load {size}")
@@ -268,7 +268,7 @@ for friction, size in ((0, 1.), (0.3, 1.), (0.1, 0.5)):
         section("Pair 1", "Secondary = 2: 0", "Primary = 1: 0",
                 f"Friction = {friction}"),
         section("Refinement", "Level = 3")]) + "\n")
-    result = run(scene, "Method/Sliding=large")
+    result = run(scene, "Method/Contact geometry=current")
     what = f"disc in a ring, friction {friction}, load {size}"
     p.expect(result.returncode == 0, f"{what}: {result.stderr}")
     if result.returncode != 0:

@@ -60,8 +60,8 @@ def duality(what, scene, settings, directions, dim=2, ranks=0, digits=1e-8):
 DISC = {"Obstacle 1/Kind": "sphere", "Obstacle 1/Point": "",
         "Obstacle 1/Normal": "", "Obstacle 1/Centre": "1, 3",
         "Obstacle 1/Radius": "2", "Obstacle 1/Motion": "0, -0.02",
-        "Body 1/Support": "2: 0, 0", "Refinement/Level": "4",
-        "Load steps/Steps": "1"}
+        "Body 1/Prescribed displacement": "2: 0, 0", "Refinement/Level": "4",
+        "Time stepping/Number of steps": "1"}
 for law in p.some(("lagrange", "penalty", "augmented lagrangian", "barrier",
                    "interior point", "quadratic penalty"), 2):
     # What a barrier ends at depends on where it began.
@@ -87,7 +87,7 @@ duality("drawn aside under a force", "rigid-plate.prm",
 if not p.short:
     duality("large strain", "rigid-plate.prm",
             {**DISC, "Body 1/Material": "neo-hooke", "Body 1/Poisson ratio":
-             "0.3", "Load steps/Newton tolerance": "1e-11"}, "y")
+             "0.3", "Time stepping/Newton tolerance": "1e-11"}, "y")
     duality("space", "elastic-sphere.prm",
             {"Refinement/Level": "3",
              "Obstacle 1/Motion": "0, 0, 0.004"}, "z", dim=3)
@@ -117,14 +117,14 @@ for force, digits in ((1e-4, 1e-8), (1e-6, 1e-5), (1e-8, 1e-3)):
     p.expect(summary["obstacle_imbalance"] <= digits, f"balance of {force}")
 refused("rigid-plate.prm", {
     "Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
-    "Obstacle 1/Force": "0, -1e-11*t", "Load steps/Smallest step": "0.5"},
-    "Obstacle 1", "too few digits", code=3)
+    "Obstacle 1/Force": "0, -1e-11*t", "Time stepping/Smallest step": "0.5"},
+    "Obstacle 1", "smaller than round-off", code=3)
 
 # A force that comes and goes: sin(pi) is round-off of what it was.
 summary, rows = run("rigid-plate.prm", {
     "Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
     "Obstacle 1/Force": "0, -20*sin(pi*t)", "Body 1/Poisson ratio": "0",
-    "Load steps/Steps": "4"})
+    "Time stepping/Number of steps": "4"})
 p.close(max(row["contact_force"] for row in rows), 20, 1e-9,
         "force at its largest")
 p.expect(abs(summary["contact_force"]) < 1e-10,
@@ -154,8 +154,8 @@ for scheme in p.some(("hht", "trapezoid", "midpoint", "generalised alpha",
                       "contact stabilised",
                       "central difference with projection"), 2):
     step = ("0.01" if scheme.startswith("central") else "0.02")
-    summary, rows = run("struck-bar.prm", {"Time/Scheme": scheme,
-                                           "Time/Step": step})
+    summary, rows = run("struck-bar.prm", {"Time stepping/Scheme": scheme,
+                                           "Time stepping/Step size": step})
     v = 0.01 * math.exp(-1)
     p.close(summary["obstacle_1_velocity"][0], v, 0.01, f"{scheme}: velocity")
     p.close(summary["obstacle_1_displacement"][0], 0.02 * (1 - math.exp(-1)),
@@ -194,14 +194,14 @@ if not p.short:
 # On coarse meshes nodes are less deep than the ball is between them when it
 # touches first and last, which is no failure.
 summary, rows = run("falling-ball.prm", {"Refinement/Level": "4",
-                                         "Time/Step": "0.04"})
+                                         "Time stepping/Step size": "0.04"})
 highest = max(row["obstacle_1_displacement_y"] for row in rows[-20:])
 p.expect(abs(highest) < 1e-2 * 1.8533e-3, f"comes back to {highest}")
 
 # Forces that drive the mass through the bar within a step: that is not the
 # scene's mistake, nor one of the pair.
 refused("struck-bar.prm", {"Obstacle 1/Force": "1e6*sin(50*t), 0",
-                           "Time/End": "0.2"}, "ABUT-F", code=3)
+                           "Time stepping/End time": "0.2"}, "ABUT-F", code=3)
 
 # What cannot be.
 PLATE = {"Obstacle 1/Motion": "", "Obstacle 1/Free directions": "y",
@@ -215,11 +215,11 @@ refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Free directions": "up"},
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Free directions": ""},
         "Obstacle 1/Force", "Free directions is empty")
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Force": "0, -x"},
-        "Obstacle 1/Force", "depends on the place")
+        "Obstacle 1/Force", "depends on x, y or z")
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Mass": "1"},
         "Obstacle 1/Mass", "Solid/Gravity is empty")
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Initial velocity": "0, 1"},
-        "Obstacle 1/Initial velocity", "Time/Scheme is none")
+        "Obstacle 1/Initial velocity", "Time stepping/Scheme is quasi-static")
 refused("hertz-axisymmetric.prm",
         {"Obstacle 1/Motion": "", "Obstacle 1/Free directions": "x"},
         "Obstacle 1/Free directions", "along it")
@@ -229,14 +229,14 @@ refused("struck-bar.prm", {"Obstacle 1/Mass": "0"},
         "Obstacle 1/Initial velocity", "Obstacle 1/Mass is 0")
 refused("struck-bar.prm", {"Obstacle 1/Mass": "0",
                            "Obstacle 1/Initial velocity": "",
-                           "Time/Scheme": "contact stabilised"},
+                           "Time stepping/Scheme": "contact stabilised"},
         "Obstacle 1/Mass", "give the obstacle a mass")
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Force": "0, 20",
-                            "Load steps/Smallest step": "0.5"},
+                            "Time stepping/Smallest step": "0.5"},
         "ABUT-F12", "Nothing holds Obstacle 1 along y", code=3)
 refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Free directions": "x, y",
                             "Obstacle 1/Force": "1, -20",
-                            "Load steps/Smallest step": "0.5"},
+                            "Time stepping/Smallest step": "0.5"},
         "ABUT-F12", "Nothing holds Obstacle 1 along x", code=3)
 
 p.finish()

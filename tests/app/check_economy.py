@@ -62,12 +62,12 @@ p.expect(0 < summary["active"] <= summary["constraints"] <= 2**4 + 1,
 # with the first load step.
 for solver in ("direct", "iterative"):
     summary, meshes, _ = run("two-blocks-3d", {
-        "Load steps/Steps": 3, "Refinement/Level": 1,
+        "Time stepping/Number of steps": 3, "Refinement/Level": 1,
         "Solver/Linear solver": solver})
     later = [int(mesh["setups"]) for mesh in meshes if mesh["load_step"] > 1]
     p.expect(later == [0, 0], f"{solver}: set-ups {later} in later load steps")
     p.expect(summary["search_rebuilds"] == 0, "two blocks: pairs made anew")
-p.expect(any("Load steps/Steps = 1" in line
+p.expect(any("Time stepping/Number of steps = 1" in line
              for line in summary["could_be_left_out"]),
          "load steps could be left out")
 
@@ -96,15 +96,15 @@ p.expect(sum(one["memory_mb"] for name, one in summary["sections"].items()
 # What could be left out, at the target and without one.
 summary, _, text = run("flat-obstacle", {"Refinement/Target error": 0.1,
                                          "Method/Enforcement": "penalty",
-                                         "Method/Penalty": "1e6"}, "--explain")
-p.expect("What could be left out" in text
-         and "a smaller Method/Penalty" in text, "a penalty that is too large")
+                                         "Method/Penalty factor": "1e6"}, "--explain")
+p.expect("Parts that could be left out" in text
+         and "a smaller Method/Penalty factor" in text, "a penalty that is too large")
 p.expect(summary["modelled"]["adaptive refinement"]["on"],
          "a target refines adaptively")
 _, _, text = run("flat-obstacle", {"Refinement/Level": 4}, "--explain")
 p.expect("Refinement/Target error" in text, "no target")
 _, _, text = run("flat-obstacle", {"Refinement/Level": 4})
-p.expect("What could be left out" not in text, "explained without being asked")
+p.expect("Parts that could be left out" not in text, "explained without being asked")
 _, _, text = run("step-41", {"Refinement/Level": 7,
                              "Refinement/Nested iteration": "false"},
                  "--explain")
@@ -128,7 +128,7 @@ p.expect(summary["method"] == "lagrange"
 for level, law in p.some(((7, "lagrange"), (9, "interior point"))):
     summary, _, _ = run("step-41", {
         "Refinement/Level": level, "Refinement/Nested iteration": "false",
-        "Method/Maximum steps": 1, **AUTO}, code=3)
+        "Method/Maximum linear systems": 1, **AUTO}, code=3)
     p.expect(summary["method"] == law,
              f"auto: {summary['method']} on level {level}")
 summary, _, _ = run("press-fit", {

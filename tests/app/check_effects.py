@@ -22,17 +22,17 @@ def refused(scene, settings, *words):
 NO_EFFECT = "has no effect"
 refused("pipe.prm", ("Solid/Gravity", "0, -10"), NO_EFFECT, "Body 1/Density")
 refused("tied-beam.prm", ("Pair 1/Initial gap", "0.1"), NO_EFFECT, "tied")
-refused("tied-beam.prm", ("Pair 1/Mesh gap", "false"), NO_EFFECT, "tied")
-refused("step-41.prm", ("Membrane/Load", "-10*t"), NO_EFFECT, "t is always 0")
+refused("tied-beam.prm", ("Pair 1/Use mesh gap", "false"), NO_EFFECT, "tied")
+refused("step-41.prm", ("Membrane/Body force", "-10*t"), NO_EFFECT, "t is always 0")
 refused("step-41.prm", ("Contact/Obstacle", "-0.5 - t"), NO_EFFECT)
-refused("step-41.prm", ("Membrane/Dirichlet", "*: t"), NO_EFFECT)
+refused("step-41.prm", ("Membrane/Prescribed displacement", "*: t"), NO_EFFECT)
 refused("step-41.prm", ("Method/Multiplier degree", "1"), NO_EFFECT)
 refused("step-41.prm", ("Exact solution/Gradient", "0; 0"), NO_EFFECT)
 refused("step-41.prm", ("Contact/Height map lowest", "-1"), NO_EFFECT)
 refused("step-41.prm", {"Mesh/Arguments": "-1 : 1 : true",
-                        "Membrane/Dirichlet": "0: 0",
-                        "Membrane/Neumann": "0: 1"}, "boundary 0", NO_EFFECT)
-refused("signorini.prm", {"Membrane/Dirichlet": "0, 1, 2, 3: 0",
+                        "Membrane/Prescribed displacement": "0: 0",
+                        "Membrane/Traction": "0: 1"}, "boundary 0", NO_EFFECT)
+refused("signorini.prm", {"Membrane/Prescribed displacement": "0, 1, 2, 3: 0",
                           "Contact/Boundary ids": "0"}, NO_EFFECT)
 refused("two-blocks-3d.prm", ("Refinement/Relaxation sweeps", "5"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Search/Extension", "0.5"), NO_EFFECT)
@@ -56,9 +56,9 @@ for gradient in ("1.3*x; 0", "-x; 0"):
                           "--output", "out", "--set",
                           f"Obstacle 1/Gradient={gradient}"), "Obstacle 1",
                    "Gradient is (", "where Expression changes by")
-refused("pipe.prm", {"Body 1/Support": "0: 0, 0; 2: free, 0; 3: 0, free",
+refused("pipe.prm", {"Body 1/Prescribed displacement": "0: 0, 0; 2: free, 0; 3: 0, free",
                      "Body 1/Pressure": "0: 1"}, "boundary 0", NO_EFFECT,
-        "Body 1/Support")
+        "Body 1/Prescribed displacement")
 refused("pipe.prm", ("Pair 1/Secondary", "1: 0"), "Solid/Pairs is 0",
         "set it to 1")
 refused("pipe.prm", ("Obstacle 2/Kind", "box"), "Solid/Obstacles is 0",
@@ -75,7 +75,7 @@ p.expect(result.returncode == 0, f"--set-if-used: {result.stderr}")
 text = (p.source / "prm/point-mass.prm").read_text()
 p.write("unused.prm", text + "\nsubsection Method\n  set Barrier factor = 0.5\n"
         "  set Enforcement = lagrange\nend\n")
-result = p.call("run", "unused.prm", "--output", "out")
+result = p.call("run", "unused.prm", "--output", "out", "--verbose")
 p.expect(result.returncode == 0, f"unused setting of a file: {result.stderr}")
 summary = json.loads((p.folder / "out/summary.json").read_text())
 p.expect(summary["not_used"] == ["Method/Barrier factor: it belongs to "
@@ -88,11 +88,11 @@ p.expect("Not used" in result.stdout, "the report does not list what it has "
 for name in ("Penalty growth", "Barrier factor", "Linear tolerance",
              "Final linear tolerance"):
     refused("step-41.prm", (f"Method/{name}", "1"), "'1' is not a number")
-refused("failures/floating-pulled.prm", ("Load steps/Smallest step", "0"),
+refused("failures/floating-pulled.prm", ("Time stepping/Smallest step", "0"),
         "above 0")
 
 # Formulas without a value somewhere.
-refused("step-41.prm", ("Membrane/Dirichlet", "*: sqrt(x)"),
+refused("step-41.prm", ("Membrane/Prescribed displacement", "*: sqrt(x)"),
         "'sqrt(x)'", "not a number", "at the point (-1, ")
 refused("pipe.prm", ("Body 1/Pressure", "0: 1e200"), "too large")
 refused("pipe.prm", {"Body 1/Traction": "0: 1, 1e200"}, "too large")
@@ -108,8 +108,8 @@ refused("rigid-plate.prm",
 refused("pipe.prm", {
     "Solid/Plane": "axisymmetric", "Exact solution/Displacement": "",
     "Body 1/Mesh/Generator": "hyper_rectangle", "Output/Points": "",
-    "Body 1/Support": "2, 3: free, 0",
-    "Body 1/Mesh/Arguments": "-1, 0 : 2, 1 : true"}, "axis of revolution")
+    "Body 1/Prescribed displacement": "2, 3: free, 0",
+    "Body 1/Mesh/Arguments": "-1, 0 : 2, 1 : true"}, "negative radius")
 p.write("concave.inp", "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0.2 0.2 0\n4 0 1 0\n"
         "1 0 quad 1 2 3 4\n")
 p.write("concave.prm", "set Scene = solid\nsubsection Body 1\n subsection Mesh"

@@ -46,7 +46,7 @@ wrong(POINT + "subsection Massses\nset Force = 1\nend\n", "wrong.prm:3",
       "section 'Massses'", "'Masses'")
 wrong(POINT + "subsection Masses\n# a comment\n\nset Stifness = 1\nend\n",
       "wrong.prm:5", "Masses/Stifness", "'Stiffness'")
-wrong(POINT + "set Penalty = 5\n", "wrong.prm:2", "'Method/Penalty'")
+wrong(POINT + "set Penalty = 5\n", "wrong.prm:2", "'Method/Penalty factor'")
 
 # Values.
 
@@ -60,7 +60,7 @@ wrong_value("Method/Enforcement", "lagrang multiplier", "'lagrange'")
 wrong_value("Method/Enforcement", "interior", "'interior point'")
 wrong_value("Method/Gap tolerance", "-1", "'-1'", "above 0")
 wrong_value("Method/Gap tolerance", "nan", "'nan'")
-wrong_value("Method/Maximum steps", "1.5", "whole number")
+wrong_value("Method/Maximum linear systems", "1.5", "whole number")
 wrong_value("Method/System", "sadle point", "'saddle point'")
 wrong_value("Masses/Force", "nan", "'nan' is not a finite number")
 wrong_value("Masses/Force", "1 + t", "'+' in '1 + t' is not a finite number")
@@ -73,7 +73,7 @@ p.expect_error(p.call("run", scene, "--set", "Masses/Stiffness=0"),
                "Masses/Stiffness:")  # nothing holds the mass
 wrong_value("Constraints/B", "0", "a row is zero")
 wrong_value("Constraints/Kind", "inequalty", "'inequality'")
-wrong_value("Sweep/Penalties", "1, 0", "above 0")
+wrong_value("Sweep/Penalty factors", "1, 0", "above 0")
 wrong_value("Output/Pictures", "maybe", "true or false")
 p.expect_error(p.call("run", scene, "--set", "Method/Barrier end=1"),
                "Method/Barrier end", "Method/Barrier start")
@@ -85,12 +85,12 @@ MISREAD = (
     ("dragged-block", "Pair 1/Largest friction", "0,3", "decimal comma?"),
     ("dragged-block", "Pair 1/Friction", "max(0,1), 5", "decimal comma?"),
     ("dragged-block", "Obstacle 1/Rotation angle", "0,5", "'0.5'"),
-    ("step-41", "Membrane/Load", "-10,5", "decimal comma?", "'-10.5'"),
-    ("step-41", "Membrane/Dirichlet", "3: 1,5", "decimal comma?"),
+    ("step-41", "Membrane/Body force", "-10,5", "decimal comma?", "'-10.5'"),
+    ("step-41", "Membrane/Prescribed displacement", "3: 1,5", "decimal comma?"),
     ("step-41", "Mesh/Boundary ids", "7: x > 0,5", "decimal comma?"),
     ("step-41", "Contact/Obstacle", "-0,5", "decimal comma?"),
     ("press-fit", "Pair 1/Initial gap", "-0,01", "decimal comma?", "'-0.01'"),
-    ("dragged-block", "Body 1/Support", "0: 0,5, free", "decimal comma?"),
+    ("dragged-block", "Body 1/Prescribed displacement", "0: 0,5, free", "decimal comma?"),
     ("dragged-block", "Body 1/Mesh/Move", "0,5, 1", "decimal comma?"),
     ("dragged-block", "Body 1/Body force", "0; -9,81", "decimal comma?"),
     ("dragged-block", "Output/Points", "1: 0,5, 1", "decimal comma?"),
@@ -127,7 +127,7 @@ for name, parameter, value, *words in MISREAD:
                               f"{parameter}={value}"), parameter + ":", *words)
 # In a file, with its line.
 wrong("set Scene = obstacle\nset Dimension = 2\nsubsection Membrane\n"
-      "set Load = -10,5\nend\n", "wrong.prm:4", "Membrane/Load",
+      "set Load = -10,5\nend\n", "wrong.prm:4", "Membrane/Body force",
       "decimal comma?")
 # Commas that separate arguments stay what they are.
 p.expect("decimal" not in p.call("check", p.source / "prm/dragged-block.prm",
@@ -175,7 +175,7 @@ MESH_FILES = (
     ("nan.vtk", vtk(with_corner("1 nan")), "'nan' in line 8"),
     ("index.vtk", vtk(CORNERS, "4 0 1 2 9"), "line 11", "vertex 9"),
     ("cells.inp", ucd(CORNERS, ()), "no cells"),
-    ("far.inp", ucd(FAR, ("1 2 5 4", "2 3 6 5")), "too few digits", "line"),
+    ("far.inp", ucd(FAR, ("1 2 5 4", "2 3 6 5")), "round-off", "line"),
     ("outlier.inp", ucd(with_corner("1e12 1")), "diameter of 1e+12",
      "1e12, in line 4"),
     ("folded.inp", ucd(["0 0", "1 0", "2 0", "0 1", "3 1", "2 1"],

@@ -46,6 +46,7 @@ p.expect(len(names) >= 20, f"{len(names)} entries only")
 written = numbers((p.source / "doc/failures.md").read_text())
 for name in names[p.part - 1::3 * (2 if p.short else 1)]:
     result = p.call("atlas", failures / f"{name}.prm", "--output", name,
+                    "--no-pictures",
                     timeout=900)
     p.expect(result.returncode == 0,
              f"{name}: {result.stdout}{result.stderr}")

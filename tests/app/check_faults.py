@@ -14,7 +14,7 @@ from program import Program, set_words
 
 p = Program()
 OUT = p.folder / "out"
-LONG = {"Load steps/Steps": 5000, "Obstacle 1/Motion": "0, -1e-6*t",
+LONG = {"Time stepping/Number of steps": 5000, "Obstacle 1/Motion": "0, -1e-6*t",
         "Output/Pictures": "false"}
 # Scene, settings: each writes with all that writes.
 SCENES = (("rigid-plate.prm", {"Checkpoint/Every steps": 1}),
@@ -145,7 +145,7 @@ shutil.rmtree(OUT, ignore_errors=True)
 
 def peak(steps):
     summary, _ = p.solve("patch-2d.prm", *set_words({
-        "Load steps/Steps": steps, "Output/Fields": "false",
+        "Time stepping/Number of steps": steps, "Output/Fields": "false",
         "Output/Pictures": "false", "Refinement/Level": 3}))
     return 1e6 * summary["peak_memory_mb"]
 

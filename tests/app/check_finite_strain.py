@@ -141,14 +141,14 @@ turned = p.write("turned.prm", "\n".join([
           more=("Material = neo-hooke",)),
     section("Refinement", "Level = 1"),
     section("Output", "Fields = false")]))
-summary = solved(turned, "Load steps/Steps=8", "Load steps/End time=2")
+summary = solved(turned, "Time stepping/Number of steps=8", "Time stepping/End time=2")
 p.expect(abs(summary["energy"]) < 1e-12 and summary["load_steps"] == 8,
          f"a whole turn: energy {summary['energy']}, "
          f"{summary['load_steps']} load steps")
-folded = run(turned, "Load steps/Steps=1")
-p.expect("inside out at a corner" in folded.stderr,
+folded = run(turned, "Time stepping/Number of steps=1")
+p.expect("inverted at a corner" in folded.stderr,
          f"half a turn at once: {folded.stderr}")
-p.expect("inside out" not in run(turned, "Load steps/Steps=4").stderr,
+p.expect("inverted at" not in run(turned, "Time stepping/Number of steps=4").stderr,
          "half a turn in steps")
 
 # Without contact: prescribed ends, in tension and in one load step.
@@ -164,16 +164,16 @@ STRETCH = {"neo-hooke": 1.5, "st venant-kirchhoff": 1.2}
 for law, function in LAWS.items():
     stretch = STRETCH[law]
     summary = solved(pulled, f"Body 1/Material={law}",
-                     f"Body 1/Support=0: 0, free; 2: free, 0; 3: free, "
+                     f"Body 1/Prescribed displacement=0: 0, free; 2: free, 0; 3: free, "
                      f"{stretch - 1}*t")
     side, energy, stress = uniaxial(function, stretch, True)
     p.close(summary["point_1"][0], side - 1, 1e-10, f"{law}: pulled")
     p.close(summary["energy"], energy, 1e-10, f"{law}: energy of a pull")
     # Dead loads: the same stretch by a force per undeformed area.
     summary = solved(pulled, f"Body 1/Material={law}",
-                     "Body 1/Support=0: 0, free; 2: free, 0",
+                     "Body 1/Prescribed displacement=0: 0, free; 2: free, 0",
                      f"Body 1/Traction=3: 0, {stress!r}*t",
-                     "Load steps/Steps=2")
+                     "Time stepping/Number of steps=2")
     p.close(summary["point_1"][1], stretch - 1, 1e-9, f"{law}: by a force")
 
 # A rotation by a right angle leaves no stress, shear the energy of its angle.
@@ -181,14 +181,14 @@ turn = "x*cos(a) - y*sin(a) - x, x*sin(a) + y*cos(a) - y"
 turn = turn.replace("a)", "pi/2*t)")
 for law, more in (("neo-hooke", []), ("neo-hooke", [MEAN]),
                   ("st venant-kirchhoff", [])):
-    words = [f"Body 1/Material={law}", "Load steps/Steps=3", *more]
-    summary = solved(pulled, *words, f"Body 1/Support=*: {turn}",
+    words = [f"Body 1/Material={law}", "Time stepping/Number of steps=3", *more]
+    summary = solved(pulled, *words, f"Body 1/Prescribed displacement=*: {turn}",
                      f"Exact solution/Displacement={turn}")
     p.expect(summary["nodal_error"] < 1e-10, f"{law}: turned as a whole")
     p.expect(abs(summary["energy"]) < 1e-14, f"{law}: energy of a turn")
     k = 0.6 if law == "neo-hooke" else 0.3
     shear = f"{k}*t*y, 0"
-    summary = solved(pulled, *words, f"Body 1/Support=*: {shear}",
+    summary = solved(pulled, *words, f"Body 1/Prescribed displacement=*: {shear}",
                      f"Exact solution/Displacement={shear}")
     expected = MU / 2 * k * k if law == "neo-hooke" else \
         LAMBDA / 2 * (k * k / 2)**2 + MU * (k * k / 2 + k**4 / 4)
@@ -201,7 +201,7 @@ for law, stretch, *words in (
         ("neo-hooke", .6), ("st venant-kirchhoff", .9),
         ("neo-hooke", .75, MEAN, "Body 1/Poisson ratio=0.4999")):
     solved(press(2, stretch), f"Body 1/Material={law}", *words,
-           "Body 1/Support=2: 0, 0", "Refinement/Level=2",
+           "Body 1/Prescribed displacement=2: 0, 0", "Refinement/Level=2",
            "Method/Final linear tolerance=1e-14")
     forces = [row["residual"] for row in newton(1) if row["part"] == 1.]
     print(law, "residuals:", *(f"{f:.3g}" for f in forces))
@@ -219,7 +219,7 @@ bent = p.write("bent.prm", "\n".join([
     section("Refinement", "Level = 0"),
     section("Output", "Fields = false", "Points = 1: 4, 0")]))
 cut = solved(bent, "Body 1/Material=neo-hooke")
-steps = solved(bent, "Body 1/Material=neo-hooke", "Load steps/Steps=16")
+steps = solved(bent, "Body 1/Material=neo-hooke", "Time stepping/Number of steps=16")
 p.expect(cut["load_steps_cut_back"] > 0,
          "one step for all of it")
 p.close(cut["point_1"][1], steps["point_1"][1], 1e-6, "end of the beam")
@@ -227,7 +227,7 @@ p.close(cut["point_1"][1], steps["point_1"][1], 1e-6, "end of the beam")
 # A step that takes too long is given up and halved, and leaves no trace.
 scene = press(2, .6)
 once = solved(scene, "Body 1/Material=neo-hooke")
-halved = solved(scene, "Body 1/Material=neo-hooke", "Load steps/Newton steps=4",
+halved = solved(scene, "Body 1/Material=neo-hooke", "Time stepping/Maximum Newton iterations=4",
                 "Refinement/Level=1", "Refinement/Coarsest level=1")
 p.expect(halved["load_steps_cut_back"] > 0, "no step was given up")
 for key in ("energy", "contact_force"):
@@ -241,27 +241,27 @@ solved(press(2, .7), "Body 1/Material=neo-hooke")
 
 # Adaptive meshes and friction on a plate.
 summary = solved(press(2, .8), "Body 1/Material=neo-hooke",
-                 "Body 1/Support=2: 0, 0", "Pair 1/Friction=0.2",
+                 "Body 1/Prescribed displacement=2: 0, 0", "Pair 1/Friction=0.2",
                  "Refinement/Adaptive cycles=1")
 p.expect(summary["pair_1_force"][1] < -0.2 and summary["estimate"] > 0,
          "friction on an adaptive mesh")
 
 # Several ranks.
 one = solved(press(3, .8), "Body 1/Material=neo-hooke",
-             "Body 1/Support=4: 0, 0, 0")
+             "Body 1/Prescribed displacement=4: 0, 0, 0")
 several = p.call("run", press(3, .8), "--output", "out", "--quiet",
                  *set_words(["Body 1/Material=neo-hooke",
-                             "Body 1/Support=4: 0, 0, 0"]), ranks=2)
+                             "Body 1/Prescribed displacement=4: 0, 0, 0"]), ranks=2)
 p.expect(several.returncode == 0, several.stderr)
 p.close(p.results()[0]["energy"], one["energy"], 1e-10, "two ranks")
 
 # What large strain does not have is refused.
 scene = press(2, .8)
 for words, parameter, text in (
-        (["Solid/Plane=stress"], "Solid/Plane", "three dimensions"),
-        (["Time/Scheme=trapezoid", "Body 1/Density=1", "Time/Step=0.1",
-          "Time/Mass=consistent", "Time/Stiffness damping=0.1"],
-         "Time/Stiffness damping", "brake what only turns"),
+        (["Solid/Plane=stress"], "Solid/Plane", "plate in 3D"),
+        (["Time stepping/Scheme=trapezoid", "Body 1/Density=1", "Time stepping/Step size=0.1",
+          "Time stepping/Mass matrix=consistent", "Time stepping/Stiffness damping=0.1"],
+         "Time stepping/Stiffness damping", "damp rigid rotations"),
         (["Refinement/Target error=0.1"], "Refinement/Target error",
          "small strain only"),
         (["Method/Enforcement=nitsche"], "Method/Enforcement",

@@ -64,7 +64,7 @@ def without_coefficient():
 
 # Two cubes pressed and moved aside, so that some of the nodes stick and others slip.
 CUBES = {**QUIET, "Refinement/Level": 1, "Pair 1/Friction": 0.3,
-         "Load steps/Steps": 2, "Solid/Allow large strain": "true",
+         "Time stepping/Number of steps": 2, "Solid/Accept strains beyond linear theory": "true",
          "Refinement/Nested iteration": "false",
          "Method/Final linear tolerance": 1e-12}
 ASIDE = [0.025, 0.01, -0.02]
@@ -77,7 +77,7 @@ def cubes(angles=(0., 0., 0.), ranks=0):
         **CUBES, "Body 1/Mesh/Rotate": words(angles),
         "Body 2/Mesh/Rotate": words(angles),
         "Body 2/Mesh/Move": words(times(turn, [0., 0., 1.])),
-        "Body 2/Support": "5: " + ", ".join(f"({u:.17g})*t" for u in
+        "Body 2/Prescribed displacement": "5: " + ", ".join(f"({u:.17g})*t" for u in
                                             times(turn, ASIDE))}, ranks)[0]
 
 
@@ -106,7 +106,7 @@ def cylinder():
     moments = []
     for end in (4, 6):
         summary, _ = p.solve_with("torsion.prm", {
-            **QUIET, "Load steps/Steps": end, "Load steps/End time": end})
+            **QUIET, "Time stepping/Number of steps": end, "Time stepping/End time": end})
         force = summary["pair_1_normal_force"]
         moments.append(abs(summary["pair_1_moment"][0]) / (0.3 * force))
     print("cylinder: moment of mu P a", *moments)
@@ -118,8 +118,8 @@ def turned_without_friction():
     """A plane that turns by 60 degrees under the cylinder: places at the rim of
     the two are apart by the chord of that, 1, and nothing has moved."""
     summary, _ = p.solve_with("torsion.prm", {
-        **QUIET, "Pair 1/Friction": 0, "Load steps/Steps": 1,
-        "Load steps/End time": 61, "Refinement/Level": 1})
+        **QUIET, "Pair 1/Friction": 0, "Time stepping/Number of steps": 1,
+        "Time stepping/End time": 61, "Refinement/Level": 1})
     p.close(summary["pair_1_slip"], 1., 1e-10, "slip of a plane that turns")
 
 
@@ -127,7 +127,7 @@ def slip_of_step():
     """The plate goes on by 0.05 over a block that slides all along: each node has
     that as its slip, against the plate, and mu N takes up its work."""
     summary, _ = p.solve_with("dragged-block.prm", {
-        "Load steps/Steps": 5, "Load steps/End time": 5,
+        "Time stepping/Number of steps": 5, "Time stepping/End time": 5,
         "Output/Pictures": "false", "Output/Nodal values": "true"})
     p.close(summary["pair_1_dissipation"],
             0.25 * summary["contact_force"] * 0.05, 1e-8, "work of the last step")
@@ -166,8 +166,8 @@ def left_out():
         run = p.call("run", p.source / "prm/dragged-block.prm", "--explain",
                      "--output", "out", *set_words({
                          **QUIET, "Body 1/Poisson ratio": 0,
-                         "Load steps/Steps": end, "Load steps/End time": end}))
-        p.expect(("friction, unless it holds" in run.stdout) == needless,
+                         "Time stepping/Number of steps": end, "Time stepping/End time": end}))
+        p.expect(("friction, unless it supports" in run.stdout) == needless,
                  f"friction in what could be left out at {end}: {run.stdout}")
 
 
@@ -282,7 +282,7 @@ def own_law():
         p.expect_error(p.call(*run, *set_words(settings)), "Friction file",
                        *words)
     p.expect_error(p.call(*run, *set_words({**own, "Pair 1/Friction": 0})),
-                   "nothing has friction")
+                   "there is no friction")
 
 
 without_coefficient()

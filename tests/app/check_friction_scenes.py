@@ -44,18 +44,18 @@ for way in (1, -1):
 # 185 degrees in a step look like 175 the other way.
 for turns in ("370*t", "-370*t", "31*t"):
     p.expect_error(run(shaft, f"Obstacle 1/Rotation angle={turns}"), "Pair 1",
-                   "degrees within a load step", "Load steps/Steps")
+                   "degrees within a load step", "Time stepping/Number of steps")
 
 # Where supports hold all nodes sideways, there is nothing to rub: a uniform
 # strain of 0.01 along the height, E (1 - nu) / ((1 + nu) (1 - 2 nu)) times that
 # on a length of 2.
 plate = p.source / "prm/rigid-plate.prm"
 held = solved(plate, "Pair 1/Friction=0.3",
-              "Body 1/Support=2: 0, 0; 0, 1, 3: 0, free")
+              "Body 1/Prescribed displacement=2: 0, 0; 0, 1, 3: 0, free")
 p.close(held["pair_1_normal_force"], 2 * 0.01 * 1000 * 0.7 / (1.3 * 0.4), 1e-9,
         "normal force where nothing can slide")
 # The same along the normal: no row is left, and the body is held all the same.
-solved(plate, "Body 1/Support=2: 0, 0; 3: free, 0", "Refinement/Level=0")
+solved(plate, "Body 1/Prescribed displacement=2: 0, 0; 3: free, 0", "Refinement/Level=0")
 
 # A cone on an axisymmetric body: the node on the axis moves along it only, and
 # contact and stick would be two conditions for that.
@@ -72,8 +72,8 @@ for mu in (0.01, 0.3):
 blocks = p.source / "prm/two-blocks-3d.prm"
 for way, code in ((5, 3), (0.6, 0)):
     result = run(blocks, "Pair 1/Friction=0.3", "Refinement/Level=1",
-                 "Solid/Allow large strain=true",
-                 f"Body 2/Support=5: {way}, 0, -0.02")
+                 "Solid/Accept strains beyond linear theory=true",
+                 f"Body 2/Prescribed displacement=5: {way}, 0, -0.02")
     p.expect(result.returncode == code and "ABUT-F36" in result.stderr,
              f"a cube that slides by {way}: {result.returncode} "
              + result.stderr)
@@ -110,12 +110,12 @@ for settings in ((), ("Pair 1/Secondary=1: 2, 3", "Pair 1/Primary=1: 2, 3")):
     # two blocks of height 1 under the stress 1
     p.close(summary["energy"], -0.5 * 2 / 1000, 1e-9,
             f"energy of two parts of a body {settings}")
-result = run(parts, "Body 1/Support=1: 0, 0")
+result = run(parts, "Body 1/Prescribed displacement=1: 0, 0")
 # No load along it: the answer has the least such motion, which is reported.
 p.expect(result.returncode == 0 and "ABUT-F12" in result.stderr
          and "body 1, of whose 2 parts the one with the corner (0 1), can slide"
          in result.stderr, f"a part that slides: {result.stderr}")
 p.expect_error(run(parts, "Pair 1/Secondary=1: 1", "Pair 1/Primary=1: 2",
-                   "Body 1/Support=1: free, 0; 2: 0, free"),
-               "Body 1/Support", "(0 1)", "ABUT-F12", "in no contact pair")
+                   "Body 1/Prescribed displacement=1: free, 0; 2: 0, free"),
+               "Body 1/Prescribed displacement", "(0 1)", "ABUT-F12", "in no contact pair")
 p.finish()

@@ -155,11 +155,11 @@ def stopped():
     for cells in ([1, 1], [4, 4]):
         block = Block([1., 1.], cells, 0.3, 1., "-0.1*min(t, 0.5)")
         for settings in METHODS[:2] + METHODS[3:5]:
-            steps = {**settings, "Load steps/Steps": 4,
-                     "Load steps/End time": 1}
+            steps = {**settings, "Time stepping/Number of steps": 4,
+                     "Time stepping/End time": 1}
             name = f"stopped, {cells}, {settings}"
             expect_kept(run(block.on_plane(), steps), 0.3, name)
-            steps = {**steps, "Load steps/Steps": 6, "Load steps/End time": 1.5,
+            steps = {**steps, "Time stepping/Number of steps": 6, "Time stepping/End time": 1.5,
                      "Body 1/Pressure": f"{block.down + 1}: (t > 1.1 ? 0.5 : 1)"}
             expect_kept(run(block.on_plane(), steps), 0.15,
                         name + ", half of the pressure")

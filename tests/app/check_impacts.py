@@ -185,12 +185,12 @@ def print_row(scene, scheme, gain, momentum, depth, loss):
 def check_bodies(p, impact, scheme):
     name = p.write("impact.prm", impact.text())
     what = f"seed {impact.seed}, {scheme}"
-    settings = {"Time/Scheme": scheme}
+    settings = {"Time stepping/Scheme": scheme}
     if scheme.startswith("central"):
-        short = run(p, name, {**settings, "Time/Step": 1e-4, "Time/End": 1e-4})
+        short = run(p, name, {**settings, "Time stepping/Step size": 1e-4, "Time stepping/End time": 1e-4})
         # Its energy is that of the ends of steps, which goes up and down by
         # (omega step)^2/4 of what is in the highest modes.
-        settings["Time/Step"] = 0.2 * short[1]["stable_time_step"]
+        settings["Time stepping/Step size"] = 0.2 * short[1]["stable_time_step"]
     found = run(p, name, settings)
     if found is None:
         return
@@ -360,7 +360,7 @@ def check_incline(p):
     for scheme in p.some(("hht", "trapezoid"), 1):
         _, rows = p.solve_with("sliding-block.prm", {
             "Solid/Gravity": "6, -8", "Body 1/Initial velocity": "",
-            "Time/Scheme": scheme, "Time/End": "2", "Output/Fields": "false"})
+            "Time stepping/Scheme": scheme, "Time stepping/End time": "2", "Output/Fields": "false"})
         begin = min(rows, key=lambda row: abs(row["time"] - (2 - length)))
         mean = ((rows[-1]["momentum_x"] - begin["momentum_x"]) / 2
                 / (rows[-1]["time"] - begin["time"]))

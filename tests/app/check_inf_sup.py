@@ -96,7 +96,7 @@ for word in p.some(("dual mortar", "mortar")):
 for word in p.some(("dual mortar", "mortar"), 0):
     n_rows = stays(
         f"3D, Q1, {word}, hanging nodes", 3, 2, 3,
-        {**method(word), "Solid/Allow large strain": "true",
+        {**method(word), "Solid/Accept strains beyond linear theory": "true",
          "Refinement/Adaptive cycles": 3,
          "Refinement/Refine fraction": 0.5, "Refinement/Coarsen fraction": 0,
          "Body 2/Pressure": "5: exp(-20*(x^2 + y^2))"}, 0)
@@ -109,5 +109,5 @@ many, _ = constants("Q1, quadrature points (penalty)", 2, 2, 3,
 p.expect(max(many) < 1e-3, f"quadrature points: {many}")
 p.expect_error(run(scene(2, 2, 3, "slides"),
                    **method("quadrature point")),
-               "Pair 1", "more conditions than the surface has unknowns")
+               "Pair 1", "more constraints than the surface has unknowns")
 p.finish()

@@ -6,7 +6,7 @@ from program import Program, set_words
 from sliding_scenes import RUBBER, orders, slide, turn
 
 p = Program()
-FINE = ["Load steps/Newton tolerance=1e-12",
+FINE = ["Time stepping/Newton tolerance=1e-12",
         "Method/Final linear tolerance=1e-14"]
 WAYS = {"nodes": ["Method/Discretisation=node to segment"],
         "points": ["Method/Discretisation=quadrature point",
@@ -31,8 +31,8 @@ def solved(scene, *settings, ranks=0):
 def check_turn(dimension, way, *more):
     words = FINE + WAYS[way] + list(more)
     scene = turn(p, dimension)
-    here = solved(scene, *words, "Load steps/End time=0.2",
-                  "Load steps/Steps=3")
+    here = solved(scene, *words, "Time stepping/End time=0.2",
+                  "Time stepping/Number of steps=3")
     there = solved(scene, *words)
     what = f"{way} in {dimension}D {more}"
     for key in ("energy", "pair_1_pressure", "least_stretch", "least_volume",
@@ -87,7 +87,7 @@ for d, ways in ((2, WAYS), (3, ["nodes", "springs"])):
 FRICTION = "Pair 1/Friction=0.3"
 check_turn(2, "nodes", FRICTION)
 
-check_slide("nodes", "Load steps/Newton tolerance=1e-12")
+check_slide("nodes", "Time stepping/Newton tolerance=1e-12")
 late = [orders(p, step) for step in (23, 24, 44)]
 p.expect(min(late) > 1.8, f"orders {late} of Newton's method")
 check_slide("points", "Method/Pressure tolerance=1e-3")
@@ -103,7 +103,7 @@ for a, b in zip(fine[3::2], coarse[1:]):
     p.close(b, a, 1e-4, "friction in increments twice as large")
 
 # On two ranks as on one.
-words = ["Load steps/End time=0.5", "Load steps/Steps=5", *WAYS["nodes"]]
+words = ["Time stepping/End time=0.5", "Time stepping/Number of steps=5", *WAYS["nodes"]]
 one = solved(slide(p, 40, 10, 12, 5, 22), *words)
 two = solved("slide.prm", *words, ranks=2)
 p.close(two["energy"], one["energy"], 1e-9, "energy on two ranks")
@@ -159,9 +159,9 @@ for words in WAYS["nodes"], WAYS["springs"]:
 
 # Between bodies `auto` moves points where nodes or points are asked for.
 scene = turn(p, 2)
-PRESSED = ["Load steps/End time=0.2", "Load steps/Steps=3"]
+PRESSED = ["Time stepping/End time=0.2", "Time stepping/Number of steps=3"]
 large, auto = (solved(scene, *WAYS["nodes"], *PRESSED, *words)
-               for words in (["Method/Sliding=large"], []))
+               for words in (["Method/Contact geometry=current"], []))
 p.close(auto["energy"], large["energy"], 1e-12, "auto is large")
 
 p.finish()

@@ -133,7 +133,7 @@ for words in ("body 1, boundary 1 ('low'): 2 faces, length 2, x from",
               "body 2, boundary 6 ('right side'): 2 faces, length 1, x = 2"):
     p.expect(words in listed, f"no '{words}' in {listed}")
 for setting, *words in (
-        ("Body 1/Support=lo: 0, 0", "no boundary 'lo'", "low, high"),
+        ("Body 1/Prescribed displacement=lo: 0, 0", "no boundary 'lo'", "low, high"),
         ("Pair 1/Primary=bed: plate", "no boundary 'plate'", "low, high"),
         ("Pair 1/Secondary=plate: plate", "is a physical surface of cells"),
         ("Pair 1/Primary=bad: high", "'bad: high'", "'bed'"),
@@ -203,7 +203,7 @@ result = p.call("check", "membrane.prm")
 p.expect(result.returncode == 0 and "boundary 3 ('top'): 32 faces, length 2"
          in result.stdout, result.stdout + result.stderr)
 p.expect_error(p.call("check", "membrane.prm", "--set",
-                      "Membrane/Dirichlet=tip: 0"), "no boundary 'tip'")
+                      "Membrane/Prescribed displacement=tip: 0"), "no boundary 'tip'")
 
 # Wrong files: name, dimension, text, words of the error.
 SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
@@ -307,7 +307,7 @@ WRONG = (
     ("first.msh", 2, GOOD[GOOD.index("$Nodes"):], "before $MeshFormat"),
     ("garbage.msh", 2, "$\x01\x02\x00\xff\n", "line 1"),
     ("entity.msh", 2, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n"
-     "1 0 0 0\n1 0 0 0 5 1\n$EndEntities\n", "line 6", "less groups"),
+     "1 0 0 0\n1 0 0 0 5 1\n$EndEntities\n", "line 6", "fewer groups"),
     ("entities.msh", 2, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n"
      "99 0 0 0\n1 0 0 0 0\n$EndEntities\n", "line 7", "$Entities"),
     ("partition.msh", 2, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"

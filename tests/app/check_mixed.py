@@ -241,7 +241,7 @@ def check_motion():
         section("Pair 1", "Secondary = 2: 0", "Primary = 1: 1"),
         section("Time", "Step = 0.02", "End = 1.6")))
     for scheme in ("hht", "contact stabilised"):
-        summary = run("bars.prm", {"Time/Scheme": scheme})
+        summary = run("bars.prm", {"Time stepping/Scheme": scheme})
         p.close(summary["mass"][0], 20., 1e-12, f"{scheme}: mass")
         p.close(summary["momentum"][0], 10., 1e-9, f"{scheme}: momentum")
         below(summary["energy_gain"], 1e-10, f"{scheme}: energy")
@@ -372,13 +372,13 @@ def check_refusals():
     p.write("slider.prm", slider(3, 1))
     for settings, *texts in (
             ({"Refinement/Adaptive cycles": 1}, "Refinement/Adaptive cycles",
-             "tetrahedra beside others of hexahedra"),
+             "tetrahedra together with hexahedra"),
             ({"Refinement/Target error": 0.1}, "Refinement/Target error",
-             "tetrahedra beside others of hexahedra"),
+             "tetrahedra together with hexahedra"),
             ({"Refinement/Nested iteration": "true"},
              "Refinement/Nested iteration", "has no effect"),
             ({"Body 1/Element": "mean dilatation"}, "Body 1/Element",
-             "one strain in each cell"),
+             "constant strain in each cell"),
             ({"Body 1/Mesh/File": "both.msh"}, "Body 1/Mesh/File",
              "one kind", "Mesh/Part"),
             ({"Body 1/Mesh/File": "both.msh", "Body 1/Mesh/Part": "bricks"},

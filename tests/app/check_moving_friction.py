@@ -9,9 +9,9 @@ from program import Program, set_words
 from sliding_scenes import RUBBER, check_friction_turned, newton, slide
 
 p = Program()
-FINE = ["Load steps/Newton tolerance=1e-12",
+FINE = ["Time stepping/Newton tolerance=1e-12",
         "Method/Final linear tolerance=1e-14"]
-SMALL, STANDARD = "Method/Sliding=small", "Method/Discretisation=mortar"
+SMALL, STANDARD = "Method/Contact geometry=reference", "Method/Discretisation=mortar"
 DUAL = "Method/Discretisation=dual mortar"
 MU = 0.3
 FRICTION = f"Pair 1/Friction={MU}"
@@ -57,7 +57,7 @@ def drag_rows(angle, way, steps, mu, *words):
     """Forces along the plate, onto it, and dissipation by load step."""
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     summary = solved(drag(angle, way), *FINE, f"Pair 1/Friction={mu}",
-                     f"Load steps/Steps={2 * steps}", "Load steps/End time=2",
+                     f"Time stepping/Number of steps={2 * steps}", "Time stepping/End time=2",
                      *words)
     rows = p.table("levels.csv")
     for row in rows:
@@ -161,7 +161,7 @@ if not p.short:
 p.close(far[-1], fine[-1], 1e-3, "friction in steps of 3.3 facets")
 
 # On two ranks as on one.
-words = [FRICTION, "Load steps/End time=1.4", "Load steps/Steps=7"]
+words = [FRICTION, "Time stepping/End time=1.4", "Time stepping/Number of steps=7"]
 one = solved("slide.prm", *words)
 two = solved("slide.prm", *words, ranks=2)
 for key in ("energy", "pair_1_friction_force", "pair_1_dissipation"):

@@ -9,9 +9,9 @@ from program import Program, set_words
 from sliding_scenes import RUBBER, check_friction_turned, newton
 
 p = Program()
-FINE = ["Load steps/Newton tolerance=1e-12",
+FINE = ["Time stepping/Newton tolerance=1e-12",
         "Method/Final linear tolerance=1e-14"]
-STANDARD, SMALL = "Method/Discretisation=mortar", "Method/Sliding=small"
+STANDARD, SMALL = "Method/Discretisation=mortar", "Method/Contact geometry=reference"
 NODES = "Method/Discretisation=node to segment"
 POINTS = ["Method/Discretisation=quadrature point",
           "Method/Enforcement=penalty"]
@@ -87,7 +87,7 @@ check_drag(-130., *POINTS, on_obstacle=True)
 if not p.short:
     # Forces of the first step are round-off sooner. With more friction a corner of
     # the block lifts, and tractions beside it are along a surface that is not flat.
-    check_drag(-130., STANDARD, "Load steps/Newton tolerance=1e-8", mu=0.15)
+    check_drag(-130., STANDARD, "Time stepping/Newton tolerance=1e-8", mu=0.15)
     check_drag(-130., *POINTS)
     check_drag(90., on_obstacle=True)
     check_drag(-130., on_obstacle=True)
@@ -102,7 +102,7 @@ for key in ("energy", "pair_1_friction_force", "pair_1_normal_force"):
 for each in p.some([[], [SMALL], [STANDARD], [NODES]], 2):
     check_friction_turned(p, 3, solved, *FINE, FRICTION, *each)
 # Springs make more of what is left over in displacements.
-check_friction_turned(p, 3, solved, "Load steps/Newton tolerance=1e-13", FINE[1],
+check_friction_turned(p, 3, solved, "Time stepping/Newton tolerance=1e-13", FINE[1],
                       FRICTION, "Method/Enforcement=penalty")
 
 
@@ -171,9 +171,9 @@ for each in () if p.short else (0., MU):
 PLACE = "0.802, 0.801"
 pressed = p.call(
     "run", p.source / "prm/ironing-3d.prm", "--output", "out", "--quiet",
-    *set_words([NODES, "Output/Fields=false", "Load steps/End time=0.5",
-                "Load steps/Steps=6",
-                "Body 2/Support=5: 0, 0, -0.13*t",
+    *set_words([NODES, "Output/Fields=false", "Time stepping/End time=0.5",
+                "Time stepping/Number of steps=6",
+                "Body 2/Prescribed displacement=5: 0, 0, -0.13*t",
                 f"Body 2/Mesh/Move={PLACE}, 0.6",
                 f"Body 2/Mesh/Curved sides=4: sphere: {PLACE}, 1.6"]))
 count = [len(newton(p, step)) for step in range(1, 7)]
@@ -202,8 +202,8 @@ def strip(dimension):
         section("Output", "Fields = false")))
 
 
-for words in p.some([["Method/Sliding=large"], [NODES],
-                     ["Method/Sliding=small"]]):
+for words in p.some([["Method/Contact geometry=current"], [NODES],
+                     ["Method/Contact geometry=reference"]]):
     plane = solved(strip(2), *FINE, FRICTION, *words)
     space = solved(strip(3), *FINE, FRICTION, *words)
     p.expect(plane["pair_1_friction_force"] > 0.2 * plane["contact_force"],

@@ -11,9 +11,9 @@ from sliding_scenes import (RUBBER, newton, press_and_slide, slide, turn,
                             turned)
 
 p = Program()
-FINE = ["Load steps/Newton tolerance=1e-12",
+FINE = ["Time stepping/Newton tolerance=1e-12",
         "Method/Final linear tolerance=1e-14"]
-LARGE, SMALL = "Method/Sliding=large", "Method/Sliding=small"
+LARGE, SMALL = "Method/Contact geometry=current", "Method/Contact geometry=reference"
 STANDARD = "Method/Discretisation=mortar"
 
 
@@ -85,8 +85,8 @@ def last_order(load_step):
 # Blocks of two widths: nothing is uniform, but all turns with them.
 def check_turn(dimension, *words):
     scene = turn(p, dimension)
-    here = solved(scene, *FINE, *words, "Load steps/End time=0.2",
-                  "Load steps/Steps=3")
+    here = solved(scene, *FINE, *words, "Time stepping/End time=0.2",
+                  "Time stepping/Number of steps=3")
     there = solved(scene, *FINE, *words)
     what = f"turned in {dimension}D {words}"
     for key in ("energy", "pair_1_pressure", "least_stretch", "least_volume",
@@ -142,7 +142,7 @@ for words in p.some([[], [STANDARD]]):
 # that differentiates everything (3.0), the hard ones no more than those of it
 # (4.8 and 4.9, with one linearisation for each change of the contact set).
 def check_counts(steps, most, **scene):
-    solved(press_and_slide(p, steps, **scene), "Load steps/Newton tolerance=1e-9")
+    solved(press_and_slide(p, steps, **scene), "Time stepping/Newton tolerance=1e-9")
     n = [len(newton(p, step)) for step in range(1, 11 + steps)]
     p.expect(len(p.table("levels.csv")) == 10 + steps
              and statistics.mean(n) <= most,
@@ -160,22 +160,22 @@ check_counts(8, 4.9, hard=True, die_young=1)
 left = run("slide.prm", SMALL)
 p.expect(left.returncode == 3
          and re.search("slide? on each other", left.stderr)
-         and "Method/Sliding = large" in left.stderr,
+         and "Method/Contact geometry = current" in left.stderr,
          f"partners left behind: {left.returncode}\n{left.stderr}")
-stuck = run("patch-2.prm", SMALL, "Load steps/Newton steps=1",
-            "Load steps/Cut back=false")
+stuck = run("patch-2.prm", SMALL, "Time stepping/Maximum Newton iterations=1",
+            "Time stepping/Cut back=false")
 p.expect(stuck.returncode == 3 and "slid on each other" not in stuck.stderr,
          f"too few steps: {stuck.returncode}\n{stuck.stderr}")
 
 # On two ranks as on one.
-words = ["Load steps/End time=0.5", "Load steps/Steps=5"]
+words = ["Time stepping/End time=0.5", "Time stepping/Number of steps=5"]
 one = solved("slide.prm", *words)
 two = solved("slide.prm", *words, ranks=2)
 p.close(two["energy"], one["energy"], 1e-9, "energy on two ranks")
 
 # What does not follow.
 p.expect_error(run("slide.prm", LARGE, "Method/Enforcement=interior point"),
-               "Method/Sliding = large", "interior point")
+               "Method/Contact geometry = current", "interior point")
 # A stiff half disc bends a thin strip, whose forces are a millionth of what the
 # disc's own motion takes as a first residual: Newton's tolerance alone would
 # leave those of contact out of balance.

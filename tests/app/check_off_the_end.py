@@ -66,7 +66,7 @@ check_end("over the corner", *solved("corner.prm", *QUIET), 10)
 # It is pressed in until its border is in contact, and slides on.
 p.write("deep.prm", scene.replace("-0.1", "-0.25"))
 summary, rows = solved("deep.prm", *QUIET, "Pair 1/Friction=0",
-                       "Load steps/End time=1.25", "Load steps/Steps=15")
+                       "Time stepping/End time=1.25", "Time stepping/Number of steps=15")
 p.expect(len(rows) == 15, f"pressed in to its border: {len(rows)} load steps")
 
 p.finish()

@@ -7,8 +7,8 @@ p = Program()
 scene = p.source / "prm/point-mass.prm"
 for ranks in (2, 3):
     p.expect_error(p.call("run", "nowhere.prm", ranks=ranks), "nowhere.prm")
-    p.expect_error(p.call("run", scene, "--set", "Method/Penalty=x",
-                          ranks=ranks), "Method/Penalty", "a number")
+    p.expect_error(p.call("run", scene, "--set", "Method/Penalty factor=x",
+                          ranks=ranks), "Method/Penalty factor", "a number")
     p.write("file", "")
     p.expect_error(p.call("run", scene, "--output", "file/x", ranks=ranks),
                    "file/x")

@@ -103,7 +103,7 @@ for name in ("lagrange", "penalty", "quadratic penalty",
 # Method of multipliers: the error shrinks by 1 / (1 + c).
 for c, count in ((1, 20), (10, 8)):
     summary, rows = p.solve("method-of-multipliers.prm", "--set",
-                            f"Method/Penalty={c}")
+                            f"Method/Penalty factor={c}")
     for i in range(count):
         error = (1 / (1 + c)) ** (i + 1)
         for name in ("u_1", "u_2"):

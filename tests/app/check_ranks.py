@@ -172,7 +172,8 @@ def check_volume():
     for level in (2, 3):
         done = p.call("check", p.write("strips.prm", STRIPS), "--set",
                       f"Refinement/Level={level}", "--set",
-                      f"Refinement/Coarsest level={level}", ranks=5)
+                      f"Refinement/Coarsest level={level}", "--verbose",
+                      ranks=5)
         p.expect(done.returncode == 0, "strips: " + done.stderr)
         found = {line.split()[0]: [float(word) for word in line.split()[1:]]
                  for line in done.stdout.splitlines()

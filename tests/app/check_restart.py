@@ -216,7 +216,7 @@ def check_left_semaphores():
 
 bodies = p.write("bodies.prm", BODIES)
 membrane = p.write("membrane.prm", MEMBRANE)
-steps = ["Load steps/Steps=8", "Refinement/Level=3"]
+steps = ["Time stepping/Number of steps=8", "Refinement/Level=3"]
 cycles = ["Refinement/Adaptive cycles=6", "Refinement/Refine fraction=0.4"]
 
 
@@ -275,7 +275,7 @@ def check_files():
     shutil.copy(mesh, p.folder)
     slot = p.write("slot.prm", (p.source / "prm/self-contact.prm").read_text()
                    + EVERY)
-    few = ["Refinement/Level=2", "Load steps/Steps=6"]
+    few = ["Refinement/Level=2", "Time stepping/Number of steps=6"]
     interrupt(slot, 2, signal.SIGTERM, few)
     p.write(mesh.name, mesh.read_text() + "\n")
     refused(slot, "content of Body 1/Mesh/File was", settings=few)
@@ -288,7 +288,7 @@ def check_motion():
     accelerations go on, too."""
     bar = p.write("bar.prm", (p.source / "prm/bar-impact.prm").read_text()
                   + EVERY)
-    short = ["Obstacle 1/Expression=-0.05", "Time/End=0.12", "Output/Every=4",
+    short = ["Obstacle 1/Expression=-0.05", "Time stepping/End time=0.12", "Output/Every=4",
              "Body 1/Mesh/Arguments=10, 1 : 0, 0 : 1, 1 : true"]
     expected = alone(bar, short)
     for number in p.some((9, 1)):
@@ -301,9 +301,9 @@ def check_driven():
     steps: place, velocity and stiffness of obstacles go on, too."""
     for name, more in (
             ("struck-bar", ["Body 1/Mesh/Arguments=10, 1 : 0, 0 : 1, 1 : true",
-                            "Time/Step=0.02", "Time/End=1.2",
+                            "Time stepping/Step size=0.02", "Time stepping/End time=1.2",
                             "Output/Every=20"]),
-            ("pressed-ball", ["Load steps/Steps=24", "Refinement/Level=3",
+            ("pressed-ball", ["Time stepping/Number of steps=24", "Refinement/Level=3",
                               "Refinement/Adaptive cycles=0"])):
         scene = p.write(name + ".prm",
                         (p.source / f"prm/{name}.prm").read_text() + EVERY)
@@ -317,8 +317,8 @@ def check_string():
     goes on, too."""
     string = p.write("string.prm",
                      (p.source / "prm/lifted-string.prm").read_text() + EVERY)
-    short = ["Membrane/Dirichlet=0: 0", "Membrane/Load=-4",
-             "Contact/Obstacle=-t^2/2", "Time/Step=0.05", "Output/Every=4",
+    short = ["Membrane/Prescribed displacement=0: 0", "Membrane/Body force=-4",
+             "Contact/Obstacle=-t^2/2", "Time stepping/Step size=0.05", "Output/Every=4",
              "Output/Pictures=false", "Exact solution/Displacement=",
              "Exact solution/Gradient="]
     expected = alone(string, short)
@@ -331,8 +331,8 @@ def check_large_strain():
     back, what was extrapolated and the rows' places go on, too."""
     disc = p.write("disc.prm", (p.source / "prm/finite-disc.prm").read_text()
                    + EVERY)
-    coarse = ["Refinement/Level=3", "Load steps/Newton steps=5",
-              "Load steps/Steps=6"]
+    coarse = ["Refinement/Level=3", "Time stepping/Maximum Newton iterations=5",
+              "Time stepping/Number of steps=6"]
     expected = alone(disc, coarse)
     killed(disc, 4, expected, coarse)
     stopped(disc, 2, signal.SIGTERM, expected, coarse)
@@ -343,7 +343,7 @@ def check_large_motion():
     pressures at points that move, and steps that were halved go on."""
     ring = p.write("ring.prm", (p.source / "prm/ring-impact.prm").read_text()
                    + EVERY)
-    short = ["Time/End=0.8", "Time/Step=0.04", "Output/Every=4",
+    short = ["Time stepping/End time=0.8", "Time stepping/Step size=0.04", "Output/Every=4",
              "Output/Pictures=false", "Body 1/Mesh/Arguments="
              "0, 1.02 : 0.8 : 1 : 16 : true"]
     expected = alone(ring, short)
@@ -356,7 +356,7 @@ def check_rolling():
     from where the last step has ended, not from where the next one leads."""
     disc = p.write("disc.prm", (p.source / "prm/rolling-disc.prm").read_text()
                    + EVERY)
-    short = ["Time/End=0.15", "Time/Step=0.01", "Output/Every=4",
+    short = ["Time stepping/End time=0.15", "Time stepping/Step size=0.01", "Output/Every=4",
              "Output/Pictures=false", "Refinement/Level=2",
              "Body 1/Young modulus=1000"]
     expected = alone(disc, short)
@@ -371,8 +371,8 @@ def check_friction(ranks):
                     (p.source / "prm/dragged-block.prm").read_text() + EVERY)
     for law in p.some(("penalty", "lagrange")):
         drag = ["Obstacle 1/Motion=(t > 1 ? 0.004*sin(3*(t - 1)) : 0), "
-                "(t < 1 ? -0.01*t : -0.01)", "Load steps/Steps=20",
-                "Load steps/End time=5", "Refinement/Level=4",
+                "(t < 1 ? -0.01*t : -0.01)", "Time stepping/Number of steps=20",
+                "Time stepping/End time=5", "Refinement/Level=4",
                 f"Method/Enforcement={law}"]
         expected = alone(block, drag)
         if ranks > 1:
@@ -426,9 +426,9 @@ elif p.part == 1:
     check_rolling()
     check_friction(1)
     check_ironing("ironing", ((10, signal.SIGTERM), (21, signal.SIGKILL)),
-                  "Load steps/Steps=22", "Load steps/End time=1.1")
-    check_ironing("ironing-3d", ((6, signal.SIGKILL),), "Load steps/Steps=8",
-                  "Load steps/End time=1.5")
+                  "Time stepping/Number of steps=22", "Time stepping/End time=1.1")
+    check_ironing("ironing-3d", ((6, signal.SIGKILL),), "Time stepping/Number of steps=8",
+                  "Time stepping/End time=1.5")
     expected = alone(membrane, cycles)
     killed(membrane, 5, expected, cycles)
     stopped(membrane, 2, signal.SIGTERM, expected, cycles)

@@ -249,7 +249,7 @@ result = p.call("search", scene(upper(2), lower(2)), "--set",
 p.expect_error(result, "Sweep/Bucket sizes", "positive")
 
 # check stops after the report: nothing is timed or written.
-result = p.call("check", scene(upper(7), lower(5)))
+result = p.call("check", scene(upper(7), lower(5)), "--verbose")
 p.expect(result.returncode == 0 and "pairs_with_area" in result.stdout
          and "ns_per_node" not in result.stdout
          and "by algorithm" not in result.stdout

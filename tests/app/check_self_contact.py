@@ -58,8 +58,8 @@ for ranks in p.some([3, 2]):
 FACES = {"Pair 1/Secondary": "1: 1, 2", "Pair 1/Primary": "1: 1, 2"}
 RUBBER = {"Body 1/Material": "neo-hooke", "Body 1/Young modulus": 1,
           "Body 1/Pressure": "", "Refinement/Level": 3,
-          "Body 1/Support": "4: 0, 0; 5: 0.2*t, -0.06*t",
-          "Load steps/Steps": 6, "Method/Sliding": "large"}
+          "Body 1/Prescribed displacement": "4: 0, 0; 5: 0.2*t, -0.06*t",
+          "Time stepping/Number of steps": 6, "Method/Contact geometry": "current"}
 for settings in p.some([
         {}, {"Method/Enforcement": "penalty", "Pair 1/Friction": 0.3},
         {"Method/Discretisation": "node to segment"}], 2):
@@ -101,7 +101,7 @@ p.write("blocks.inp", blocks())
 SIDES = {"Body 1/Mesh/File": p.folder / "blocks.inp",
          "Body 1/Mesh/Boundary ids": "1: abs(y - 1) < 1e-6; 2: x < 1e-6; "
                                      "4: y < 1e-6; 5: y > 1.999999",
-         "Body 1/Support": "2: 0, free; 4: free, 0; 5: free, -0.02",
+         "Body 1/Prescribed displacement": "2: 0, free; 4: free, 0; 5: free, -0.02",
          "Body 1/Pressure": "",
          "Pair 1/Secondary": "1: 1", "Pair 1/Primary": "1: 1",
          "Output/Points": "1: 1, 2", "Refinement/Level": 1}
@@ -232,7 +232,7 @@ p.write("hole.prm", solid(
     section("Refinement", "Level = 1"), bodies=1))
 for sliding, why in (("small", "ABUT-F36"), ("large", "ABUT-F24")):
     result = p.call("run", "hole.prm", "--output", "out", "--quiet", "--set",
-                    f"Method/Sliding={sliding}")
+                    f"Method/Contact geometry={sliding}")
     p.expect(result.returncode == 3 and why in result.stderr,
              f"hole, {sliding}: {result.stderr}")
 
@@ -255,8 +255,8 @@ for law in p.some(["penalty", "augmented lagrangian"]):
              f"slot, {law}: more friction than the pressure allows")
     slides, _ = solve("self-contact.prm", {
         **SIDES, **rubs, "Refinement/Level": 1,
-        "Body 1/Support": "4: 0, 0; 5: 0.1, -0.02",
-        "Solid/Allow large strain": "true"})
+        "Body 1/Prescribed displacement": "4: 0, 0; 5: 0.1, -0.02",
+        "Solid/Accept strains beyond linear theory": "true"})
     p.expect(slides["pair_1_slipping"] == slides["active"] > 0,
              f"blocks, {law}: {slides['pair_1_slipping']} slip of "
              f"{slides['active']}")

@@ -272,7 +272,7 @@ def check_stiffness():
     for material in ("neo-hooke", "st venant-kirchhoff"):
         bent = run("cantilever.prm", {
             "Solid/Degree": 1, "Body 1/Material": material,
-            "Body 1/Traction": "1: 0, 0, -4e-4*t", "Load steps/Steps": 4},
+            "Body 1/Traction": "1: 0, 0, -4e-4*t", "Time stepping/Number of steps": 4},
             words=["ABUT-F16"])
         p.expect(bent["point_1"][2] < -0.6, f"{material}: {bent['point_1']}")
         p.close(bent["locked_energy"], summary["locked_energy"], 0.02,
@@ -359,14 +359,14 @@ def check_motion():
             (2, "hht", 0.05), (1, "hht", 0.02), (2, "contact stabilised", 0.03),
             (1, "central difference with projection", 0.06)):
         summary = run("bar.prm", {
-            "Solid/Degree": degree, "Time/Scheme": scheme,
-            "Time/Step": 0.01 if scheme[0] == "c" else 0.02})
+            "Solid/Degree": degree, "Time stepping/Scheme": scheme,
+            "Time stepping/Step size": 0.01 if scheme[0] == "c" else 0.02})
         what = f"{scheme}, degree {degree}"
         p.close(summary["mass"][0], 10., 1e-12, f"{what}: mass")
         below(summary["energy_gain"], 1e-10, f"{what}: energy")
         below(summary["energy_loss"], loss, f"{what}: lost energy")
         p.close(summary["pair_1_impulse"][0], 20., 0.05, f"{what}: impulse")
-    refused("bar.prm", {"Time/Scheme": "central difference with projection"},
+    refused("bar.prm", {"Time stepping/Scheme": "central difference with projection"},
             "Solid/Degree", "no lumped mass")
 
 
@@ -391,7 +391,7 @@ def check_refusals():
     file = "Body 1/Mesh/File"
     for settings, *texts in (
             ({"Body 2/Element": "mean dilatation", "Solid/Degree": 1},
-             "Body 2/Element", "one strain in each cell"),
+             "Body 2/Element", "constant strain in each cell"),
             ({"Method/Discretisation": "dual mortar"},
              "Method/Discretisation", "no weight at the corners"),
             ({"Refinement/Coarsest level": 1, "Refinement/Level": 2},
@@ -432,7 +432,7 @@ def check_unseen():
     result = p.call("run", "tetrahedra.prm", "--output", "out", "--quiet",
                     "--set", "Refinement/Adaptive cycles=0")
     p.expect(result.returncode == 3 and "ABUT-F37" in result.stderr
-             and "no constraint presses" in result.stderr,
+             and "no constraint is active" in result.stderr,
              f"unseen ball: {result.returncode} {result.stderr}")
     # Its centre comes below the surface in one step.
     run("tetrahedra.prm", {"Obstacle 1/Radius": 0.002, "Refinement/Adaptive "
@@ -488,7 +488,7 @@ def check_slot():
         section("Pair 1", "Secondary = 1: 1", "Primary = 1: 1",
                 "Reach = 0.02"), bodies=1))
     for degree, sliding in itertools.product((1, 2), ("small", "large")):
-        settings = {"Solid/Degree": degree, "Method/Sliding": sliding}
+        settings = {"Solid/Degree": degree, "Method/Contact geometry": sliding}
         one = run("slot.prm", settings)
         two = run("slot.prm", {**settings, "Body 1/Mesh/File": "slot-2.msh",
                                "Pair 1/Primary": "1: 2"})

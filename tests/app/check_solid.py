@@ -70,10 +70,10 @@ p.expect(run(*deep, "Search/Thickness=1").returncode == 0,
 p.expect_error(run(*deep, "Search/Thickness=0.5"), "Pair 1/Secondary",
                "overlap")
 p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2"),
-               "Pair 1/Secondary", "prescribed by Body 2/Support")
+               "Pair 1/Secondary", "prescribed by Body 2/Prescribed displacement")
 p.expect_error(run("Pair 1/Secondary=2: 3", "Pair 1/Reach=2",
-                   "Body 2/Support=1: 0, 0"),
-               "Pair 1/Secondary", "ABUT-F23", "same way")
+                   "Body 2/Prescribed displacement=1: 0, 0"),
+               "Pair 1/Secondary", "ABUT-F23", "same direction")
 p.expect_error(run("Body 2/Mesh/Move=3, 0"), "Pair 1/Secondary", "ABUT-F24",
                "lies opposite the other", "position of the bodies")
 
@@ -92,22 +92,22 @@ for place, overlaps, ranks in (("5.1, -0.3 : 6.1, 0.7", True, (0, 2)),
                                ("3, -2 : 4, -1", False, (0,))):
     for number in ranks:
         thrown = start("landing-on-a-body.prm", {
-            "Time/End": 0.0025,
+            "Time stepping/End time": 0.0025,
             "Body 1/Mesh/Arguments": f"4, 10 : {place} : true"}, number)
         if overlaps:
             p.expect_error(thrown, "Pair 1/Secondary", "ABUT-F11", "overlap")
         else:
             p.expect(thrown.returncode == 0, f"{place}: {thrown.stderr}")
 parted = start("landing-on-a-body.prm", {
-    "Time/End": 0.0025, "Body 1/Initial displacement": "0, 1.5",
+    "Time stepping/End time": 0.0025, "Body 1/Initial displacement": "0, 1.5",
     "Body 1/Mesh/Arguments": "4, 10 : 5.1, -0.3 : 6.1, 0.7 : true"})
 p.expect(parted.returncode == 0, f"displaced to begin with: {parted.stderr}")
 p.expect_error(start("sliding-die.prm", {"Body 1/Mesh/Scale": 1.559}),
                "Pair 1/Secondary", "ABUT-F11", "overlap by at least", "reach")
 for scale, overlap in ((1.1, "0.1"), (1.02, "")):
     pressed = start("sliding-die.prm", {
-        "Body 1/Mesh/Scale": scale, "Load steps/Steps": 1,
-        "Load steps/End time": 1})
+        "Body 1/Mesh/Scale": scale, "Time stepping/Number of steps": 1,
+        "Time stepping/End time": 1})
     p.expect(pressed.returncode == 0
              and (f"overlap by {overlap} before" in pressed.stderr
                   if overlap else "F11" not in pressed.stderr),
@@ -118,10 +118,10 @@ coarse = run("Body 1/Refinements=3", "Refinement/Level=0")
 p.expect(coarse.returncode == 0 and "as coarse as the primary" in coarse.stderr,
          f"a coarse secondary side: {coarse.stderr}")
 
-soft = run("Method/Enforcement=penalty", "Method/Penalty=1e-3")
+soft = run("Method/Enforcement=penalty", "Method/Penalty factor=1e-3")
 p.expect(soft.returncode == 3 and "far too soft" in soft.stderr,
          f"soft penalty: {soft.stderr}")
-soft = run("Method/Enforcement=quadratic penalty", "Method/Penalty=1e-3",
+soft = run("Method/Enforcement=quadratic penalty", "Method/Penalty factor=1e-3",
            "Method/Penalty cap=1e-3")
 p.expect(soft.returncode == 3 and soft.stderr.count("at its cap") == 1,
          f"soft quadratic penalty: {soft.stderr}")
@@ -132,9 +132,9 @@ for law, code in (("penalty", "ABUT-F06"), ("augmented lagrangian", "ABUT-F06"),
                   ("nitsche", "ABUT-F31")):
     method = f"Method/Enforcement={law}"
     for value in ("-1", "nan", "inf"):
-        p.expect_error(run(method, f"Method/Penalty={value}"), "Method/Penalty")
+        p.expect_error(run(method, f"Method/Penalty factor={value}"), "Method/Penalty factor")
     for value in ("1e-30", "1e15", "1e30", "1e300"):
-        result = run(method, f"Method/Penalty={value}")
+        result = run(method, f"Method/Penalty factor={value}")
         warnings = [line for line in result.stderr.splitlines()
                     if line.startswith("abut: warning: " + code)]
         p.expect(warnings and "sensible range" in warnings[0],
@@ -148,30 +148,30 @@ for law, code in (("penalty", "ABUT-F06"), ("augmented lagrangian", "ABUT-F06"),
 
 # Pulled apart: the upper block has nothing to hold it, its own supports let it
 # go up and down.
-gone = run("Body 2/Support=0, 1: 0, free", "Body 2/Traction=3: 0, 0.01")
+gone = run("Body 2/Prescribed displacement=0, 1: 0, free", "Body 2/Traction=3: 0, 0.01")
 p.expect(gone.returncode == 3, f"pulled apart: exit code {gone.returncode}")
 p.expect("hold" in gone.stderr, f"pulled apart: {gone.stderr}")
-pushed, _ = solved("Body 2/Support=0, 1: 0, free", "Body 2/Traction=3: 0, -0.01")
+pushed, _ = solved("Body 2/Prescribed displacement=0, 1: 0, free", "Body 2/Traction=3: 0, -0.01")
 p.close(pushed["contact_force"], 0.01, 1e-6, "pushed together")
 
 # A lower block that nothing holds but the pair, and one without a pair.
-p.expect_error(run("Body 2/Support=", "Pair 1/Secondary=1: 3",
-                   "Pair 1/Primary=1: 2"), "Body 2/Support",
+p.expect_error(run("Body 2/Prescribed displacement=", "Pair 1/Secondary=1: 3",
+                   "Pair 1/Primary=1: 2"), "Body 2/Prescribed displacement",
                "every rigid motion", "in no contact pair")
 
 # A corner that is held both ways: the lower block's side goes up by more than
 # the upper one's side, which is held, too.
-held = "Body 1/Support=2: 0, 0; 0: 0, 0.02*y"
-p.expect_error(run("Body 2/Support=3: 0, -0.01; 0: 0, 0", held),
-               "Body 2/Support", "different displacements", "corner")
-corner = run("Body 2/Support=3: 0, -0.01; 0: 0, 0.01 - 0.01*y", held)
+held = "Body 1/Prescribed displacement=2: 0, 0; 0: 0, 0.02*y"
+p.expect_error(run("Body 2/Prescribed displacement=3: 0, -0.01; 0: 0, 0", held),
+               "Body 2/Prescribed displacement", "different displacements", "corner")
+corner = run("Body 2/Prescribed displacement=3: 0, -0.01; 0: 0, 0.01 - 0.01*y", held)
 p.expect(corner.returncode == 3 and "ABUT-F26" in corner.stderr
-         and "supports hold nodes" in corner.stderr,
+         and "prescribed displacements keep nodes" in corner.stderr,
          f"a corner held both ways: {corner.stderr}")
 
 # Corners where a support meets the contact surface.
-corner, _ = solved("Body 2/Support=3: 0, -0.01; 0: 0, free",
-                   "Body 1/Support=2: 0, 0; 0: 0, free")
+corner, _ = solved("Body 2/Prescribed displacement=3: 0, -0.01; 0: 0, free",
+                   "Body 1/Prescribed displacement=2: 0, 0; 0: 0, free")
 p.expect(corner["contact_force"] > 4e-3, "supports at the end of the surface")
 
 # Secondary and primary exchanged: the same but for the discretisation error.
@@ -185,15 +185,15 @@ for word in ("mortar", "dual mortar", "node to segment"):
             f"{word}: energy with sides exchanged")
 
 # Load steps end where one step does: nothing here depends on the way.
-one, _ = solved("Body 2/Support=3: 0, -0.01*t")
-many, rows = solved("Body 2/Support=3: 0, -0.01*t", "Load steps/Steps=4")
+one, _ = solved("Body 2/Prescribed displacement=3: 0, -0.01*t")
+many, rows = solved("Body 2/Prescribed displacement=3: 0, -0.01*t", "Time stepping/Number of steps=4")
 p.expect(many["load_steps"] == 4 and rows[-1]["time"] == 1., "four load steps")
 p.close(many["energy"] / one["energy"], 1., 1e-6, "energy after load steps")
 p.close(many["contact_force"] / one["contact_force"], 1., 1e-6,
         "force after load steps")
 
 # A gap that closes halfway.
-gap, rows = solved("Body 2/Support=3: 0, -0.01*t", "Load steps/Steps=4",
+gap, rows = solved("Body 2/Prescribed displacement=3: 0, -0.01*t", "Time stepping/Number of steps=4",
                    "Pair 1/Initial gap=0.005")
 first = [row for row in rows if row["time"] < 0.49]
 p.expect(all(row["active"] == 0 for row in first), "open at first")

@@ -55,8 +55,8 @@ def disc(length, stress, _, method):
         "Obstacle 1/Centre": numbers(length, 0, 2),
         "Obstacle 1/Radius": length,
         "Obstacle 1/Motion": f"{0.05 * length}*t, {-0.1 * length}*t",
-        "Body 1/Support": "2: 0, 0", "Pair 1/Friction": "0.3",
-        "Load steps/Steps": 4, "Refinement/Level": 3,
+        "Body 1/Prescribed displacement": "2: 0, 0", "Pair 1/Friction": "0.3",
+        "Time stepping/Number of steps": 4, "Refinement/Level": 3,
         "Method/Discretisation": method, "Output/Pictures": "false"}
 
 
@@ -71,7 +71,7 @@ def bar(length, stress, time, scheme):
         "Obstacle 1/Size": numbers(length, 2, 4),
         "Obstacle 1/Mass": 2 * density * length**2,
         "Obstacle 1/Initial velocity": numbers(length / time, 0.01, 0),
-        "Time/Scheme": scheme, "Time/Step": 0.05 * time, "Time/End": time}
+        "Time stepping/Scheme": scheme, "Time stepping/Step size": 0.05 * time, "Time stepping/End time": time}
 
 
 for scene, what in ((disc, "auto"), (disc, "mortar"), (bar, "hht"),

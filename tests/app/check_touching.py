@@ -137,7 +137,7 @@ LAWS = ["lagrange", "penalty", "augmented lagrangian", "quadratic penalty"]
 for law, (load, code, force) in itertools.product(
         LAWS, (("0", 0, 0.), ("-sin(pi*t)", 0, 0.), ("-t", 0, 1.5),
                ("t", 3, None))):
-    result = run(block, f"Body 1/Body force=0, {load}", "Load steps/Steps=2",
+    result = run(block, f"Body 1/Body force=0, {load}", "Time stepping/Number of steps=2",
                  f"Method/Enforcement={law}")
     load = f"{load}, {law}"
     p.expect(result.returncode == code, f"load {load}: {result.stderr}")

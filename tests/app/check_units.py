@@ -18,7 +18,7 @@ other = {
     "Mesh/Arguments": f"{-LENGTH} : {LENGTH} : false",
     # Force per length of the edge over strain; force per area.
     "Membrane/Conductivity": FORCE / LENGTH,
-    "Membrane/Load": -10 * FORCE / LENGTH**2,
+    "Membrane/Body force": -10 * FORCE / LENGTH**2,
     "Contact/Obstacle": steps(LENGTH),
 }
 

@@ -8,9 +8,13 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 
-from served import Served
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]
+                       / "plugin/tools"))
+from abut_tools.served import Served  # noqa: E402
+
 
 class Folder:
     """A folder that scenes are written to."""
@@ -126,7 +130,7 @@ class Program:
         codes = codes if isinstance(codes, tuple) else (codes,)
         what = " ".join(map(str, result.args[1:]))
         self.expect(result.returncode in codes,
-                    f"{what}: exit code {result.returncode} is none of "
+                    f"{what}: exit code {result.returncode} is not one of "
                     f"{codes}:\n{result.stderr}")
         for word in words:
             self.expect(word in result.stderr,

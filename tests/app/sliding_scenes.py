@@ -52,8 +52,8 @@ def check_friction_turned(p, dimension, solved, *words):
     """All forces of the turned blocks, friction too, which some nodes take up
     by sticking, are those of before; solved(scene, *words) is a summary."""
     scene = turn(p, dimension)
-    here = solved(scene, *words, "Load steps/End time=0.2",
-                  "Load steps/Steps=3")
+    here = solved(scene, *words, "Time stepping/End time=0.2",
+                  "Time stepping/Number of steps=3")
     there = solved(scene, *words)
     what = f"turned {words}"
     p.expect(here["pair_1_friction_force"] > 1e-3 * here["contact_force"],

@@ -394,7 +394,7 @@ namespace
     const std::vector<PressureCurve> curves = {
         {"pair 1", contact_lines(problem.mapping, problem.dof_handler, {3},
                                  {traction, nullptr, nullptr})}};
-    Report report(MPI_COMM_WORLD, true);
+    Report report(MPI_COMM_WORLD, Verbosity::quiet);
     const bool root =
         dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     Expect::that(draw_bodies(report, folder, "bodies", problem.mapping,

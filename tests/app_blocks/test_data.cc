@@ -361,7 +361,7 @@ namespace
           "Mesh/File", words);
     };
     fails("none.msh", {"none.msh", "cannot be opened"});
-    fails("mesh.xyz", {"mesh.xyz", "no known kind", "msh"});
+    fails("mesh.xyz", {"mesh.xyz", "unknown ending", "msh"});
     fails("triangle.msh", {"triangles"});
     fails("broken.msh", {"broken.msh", "2 dimensions"});
     fails("empty.inp", {"empty.inp"});

@@ -316,7 +316,7 @@ namespace
     const la::Vector status = problem.interpolate("if(x^2+y^2 > 1, 0, 1)");
     const Raster raster = sample_raster(problem.mapping, problem.dof_handler,
                                         {{&u}, {&status, true}}, 200);
-    Report report(MPI_COMM_WORLD, true);
+    Report report(MPI_COMM_WORLD, Verbosity::quiet);
     const bool root =
         dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     Expect::that(draw_solution(report, folder, "solution", raster, 0,

@@ -139,22 +139,22 @@ namespace
                           {"damaged", checkpoint.string(), what});
       MPI_Barrier(MPI_COMM_WORLD);
     };
-    damaged("not those",
+    damaged("files were changed",
             [](const fs::path &checkpoint)
             {
               std::fstream file(checkpoint / "rank.0");
               file.seekp(2);
               file << '#'; // same size
             });
-    damaged("not those", [](const fs::path &checkpoint)
+    damaged("files were changed", [](const fs::path &checkpoint)
             { fs::resize_file(checkpoint / "rank.0", 3); });
-    damaged("not those", [](const fs::path &checkpoint)
+    damaged("files were changed", [](const fs::path &checkpoint)
             { fs::remove(checkpoint / "rank.0"); });
-    damaged("not those", [](const fs::path &checkpoint)
+    damaged("files were changed", [](const fs::path &checkpoint)
             { std::ofstream(checkpoint / "more") << "x"; });
     damaged("contents", [](const fs::path &checkpoint)
             { fs::remove(checkpoint / "contents"); });
-    damaged("not those",
+    damaged("files were changed",
             [](const fs::path &checkpoint)
             {
               fs::resize_file(checkpoint / "contents",
@@ -255,6 +255,29 @@ namespace
     Expect::that(difference(before, now).find("and 6 more")
                      != std::string::npos,
                  difference(before, now));
+  }
+
+  /** Checkpoints of before names changed belong to the same runs. */
+  void old_names_are_the_same()
+  {
+    const RunIdentity before = {
+        {"Load steps/Steps", "3"}, {"Load steps/End time", "2"},
+        {"Time/End", "1"},         {"Time/Scheme", "none"},
+        {"Pair 2/Reach", "0"},     {"Body 1/Support", "3: 0, 0"}};
+    RunIdentity now = {{"Time stepping/Number of steps", "3"},
+                       {"Time stepping/End time", "2"},
+                       {"Time stepping/Scheme", "quasi-static"},
+                       {"Pair 2/Reach", "auto"},
+                       {"Body 1/Prescribed displacement", "3: 0, 0"}};
+    const auto found = [&]
+    { return difference(with_present_names(before, now), now); };
+    Expect::that(found().empty(), found());
+    now["Time stepping/Number of steps"] = "4";
+    now["Pair 2/Reach"] = "0.5";
+    Expect::that(found()
+                     == "Pair 2/Reach was '0' and is '0.5'; Time "
+                        "stepping/Number of steps was '3' and is '4'",
+                 found());
   }
 
   void values_keep_all_bits()
@@ -426,6 +449,7 @@ main(int argc, char **argv)
                       one_run_for_a_folder(folder / "lock");
                       signals_are_noted();
                       differences_are_named();
+                      old_names_are_the_same();
                       values_keep_all_bits();
                       for (const unsigned int degree : {1, 2})
                       {

@@ -136,11 +136,11 @@ namespace
     const std::string &kind = parameter.pattern;
     if (kind == "a formula" || kind.rfind("a number", 0) == 0)
       return {"0,3", "-1,25e-1"};
-    if (kind == "a formula per direction")
+    if (kind == "a vector of formulas")
       return {"0,5, 0,5, 0,5", "0; 0,5; 0"};
-    if (kind == "a formula per boundary id")
+    if (kind == "a formula by boundary id")
       return {"*: 0,5", "1: x > 0,5"};
-    if (kind == "a formula per direction for each boundary id")
+    if (kind == "a vector of formulas by boundary id")
       return {"*: 0,5, 0,5"};
     return {};
   }
@@ -187,10 +187,10 @@ namespace
   bool is_work(const std::string &path)
   {
     for (const char *name :
-         {"Load steps/Steps", "Refinement/Adaptive cycles",
+         {"Time stepping/Number of steps", "Refinement/Adaptive cycles",
           "Refinement/Relaxation sweeps", "Solver/Smoother sweeps",
-          "Output/Linear solves for comparison", "Sweep/Repeats", "Time/Step",
-          "Time/End", "Refinement/Most meshes", "Refinement/Target error"})
+          "Output/Linear solves for comparison", "Sweep/Repeats", "Time stepping/Step size",
+          "Time stepping/End time", "Refinement/Maximum meshes", "Refinement/Target error"})
       if (path == name)
         return true;
     return false;

@@ -31,9 +31,9 @@ def run(abut, folder, back):
     subprocess.run(
         [abut, "run", SCENE, "--output", folder, "--quiet",
          "--set", "Output/Pictures=false",
-         "--set", f"Load steps/Steps={steps}",
-         "--set", f"Load steps/End time={steps}",
-         "--set", f"Body 2/Support=1: (t > 1 ? ({way}) : 0), "
+         "--set", f"Time stepping/Number of steps={steps}",
+         "--set", f"Time stepping/End time={steps}",
+         "--set", f"Body 2/Prescribed displacement=1: (t > 1 ? ({way}) : 0), "
          f"(t < 1 ? -{PRESS}*t : -{PRESS})"], check=True)
     summary = json.loads((folder / "summary.json").read_text())
     with open(folder / "pair_1.csv") as file:

@@ -7,7 +7,7 @@ answer, of these without a report of the force, and the largest clearance of
 these, divided by the length of a facet; and the same of bodies of which one
 comes there, with points that follow.
 
-    tests/bench/false_contact.py build/release/abut_served [600 [NAME=VALUE ...]]
+    tests/bench/false_contact.py build/release/abut [600 [NAME=VALUE ...]]
 """
 import json
 import pathlib
@@ -16,8 +16,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
 import apart_scenes  # noqa: E402
-from program import Folder, set_words  # noqa: E402
-from served import Served  # noqa: E402
+from program import Folder, Served, set_words  # noqa: E402
 
 
 def look(abut, folder, file, words):
@@ -29,7 +28,7 @@ def look(abut, folder, file, words):
         return False, True
     force = json.loads((pathlib.Path(folder) / "out/summary.json").read_text())[
         "contact_force"]
-    return force == 0., "constraints press where" in result.stderr
+    return force == 0., "constraints are active where" in result.stderr
 
 
 def count(abut, make, n, words, title=""):

@@ -26,8 +26,8 @@ def run(arguments, level, mu, support):
         arguments.abut, SCENE,
         {**measured.SILENT, "Refinement/Level": level,
          "Refinement/Coarsest level": level,
-         "Pair 1/Friction": mu, "Body 2/Support": support,
-         "Solid/Allow large strain": "true",
+         "Pair 1/Friction": mu, "Body 2/Prescribed displacement": support,
+         "Solid/Accept strains beyond linear theory": "true",
          "Solver/Linear solver": arguments.linear}, arguments.set)
     steps = [step for step in one.steps if int(step["level"]) == level]
     seconds = one.seconds("solve", "processor_seconds")

@@ -31,8 +31,8 @@ def run(abut, folder, scheme, step):
     """Energies by the exact one at the ends of all steps, and force at 1.5."""
     subprocess.run(
         [abut, "run", SCENE, "--output", folder, "--quiet",
-         "--set", f"Time/Scheme={scheme}", "--set", f"Time/Step={step}",
-         "--set", f"Time/End={PERIOD * PERIODS}",
+         "--set", f"Time stepping/Scheme={scheme}", "--set", f"Time stepping/Step size={step}",
+         "--set", f"Time stepping/End time={PERIOD * PERIODS}",
          "--set", "Output/Pictures=false"], check=True,
         stderr=subprocess.DEVNULL)
     with open(folder / "levels.csv") as file:

@@ -25,7 +25,7 @@ STIFFNESS, FORCE, HEIGHT = 1.0, 3.0, 1.0
 RANGES = {"augmented lagrangian": (0.55, 2.2), "quadratic penalty": (0.55, 2.2),
           "barrier": (0.6, 1.3), "interior point": (0.99, 1.003)}
 METHODS = {
-    "augmented lagrangian": ["Method/Penalty=1", "Method/Adaptive penalty=false",
+    "augmented lagrangian": ["Method/Penalty factor=1", "Method/Adaptive penalty=false",
                              "Method/Gap tolerance=1e-8",
                              "Method/Pressure tolerance=1e-8"],
     "quadratic penalty": ["Method/Penalty growth=4"],

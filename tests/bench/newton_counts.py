@@ -32,7 +32,7 @@ def counts(abut, folder, n, scene, words):
     name = press_and_slide(folder, n, **scene)
     run = subprocess.run(
         [abut, "run", name, "--output", "out", "--quiet",
-         "--set", "Load steps/Newton tolerance=1e-9",
+         "--set", "Time stepping/Newton tolerance=1e-9",
          *(word for each in words for word in ("--set", each))],
         cwd=folder.folder, capture_output=True, text=True, check=False)
     if run.returncode != 0:

@@ -24,8 +24,8 @@ SLIDING = "tests/bench/sliding-block.prm"
 
 
 def run(abut, slide, steps, more):
-    settings = {"Load steps/Steps": steps}
-    settings |= {"Load steps/End time": steps} if slide else MESH
+    settings = {"Time stepping/Number of steps": steps}
+    settings |= {"Time stepping/End time": steps} if slide else MESH
     return measured.Run(abut, SLIDING if slide else SCENE,
                         {**measured.SILENT, **settings}, more)
 

@@ -256,7 +256,7 @@ tresca_contracts_by_the_coupling(void **unused)
     {
       /* In the second round friction lifts the mass, and there is none then. */
       assert_non_null(strstr(message, "after 1 rounds"));
-      assert_non_null(strstr(message, "no state is found"));
+      assert_non_null(strstr(message, "no state of stick and slip is found"));
       assert_true(answer.progress.step < 70);
       continue;
     }

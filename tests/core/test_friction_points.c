@@ -11,12 +11,11 @@ enum
   MOST = 8
 };
 
-/* Points with the nodes and pairs that they belong to. */
+/* Points with places, of that many pairs. */
 typedef struct scene
 {
   abut_points *points;
-  int32_t node[MOST], pair[MOST];
-  abut_point_places places;
+  int32_t n_pairs;
 } scene;
 
 static void
@@ -24,11 +23,7 @@ open_scene(scene *s, int32_t n_pairs)
 {
   memset(s, 0, sizeof(*s));
   require(abut_points_create(context, 2, &s->points));
-  s->places.struct_size = sizeof(s->places);
-  s->places.n_nodes = 10;
-  s->places.n_pairs = n_pairs;
-  s->places.node = s->node;
-  s->places.pair = s->pair;
+  s->n_pairs = n_pairs;
 }
 
 /* A point of two components whose normal is at an angle. */
@@ -43,8 +38,6 @@ add(scene *s, int32_t pair, int32_t node, double angle, double gap,
   abut_point point = abut_point_defaults();
   require(abut_points_get(s->points, &v));
   assert_true(v.n_points < MOST);
-  s->node[v.n_points] = node;
-  s->pair[v.n_points] = pair;
   point.id = 10 * v.n_points;
   point.kind = kind;
   point.n_components = 2;
@@ -55,6 +48,11 @@ add(scene *s, int32_t pair, int32_t node, double angle, double gap,
   point.node = &own;
   point.coefficient = &one;
   require(abut_points_append(s->points, &point));
+  abut_place place = abut_place_defaults();
+  place.pair = pair;
+  place.node = node;
+  place.position = frame;
+  require(abut_points_append_place(s->points, &place));
 }
 
 static void
@@ -82,7 +80,7 @@ test_sums(void **state)
                               ABUT_STATE_OPEN, 0, ABUT_STATE_CLOSED, 0,
                               ABUT_STATE_SLIP, 0};
   abut_friction_sums sums[3];
-  require(abut_points_friction(s.points, &s.places, value, slip, states, sums));
+  require(abut_points_friction(s.points, s.n_pairs, value, slip, states, sums));
   near(sums[0].normal_force, 2. * 10. + 3. * 20., 1e-14, "sum");
   near(sums[0].friction_force, 2. * 3. + 3. * 4., 1e-14, "sum");
   near(sums[0].traction, 4., 0., "sum");
@@ -96,9 +94,9 @@ test_sums(void **state)
   near(sums[2].dissipation, 0.5 * 2., 0., "sum");
   /* Work that a law puts in is no dissipation. */
   const double back[10] = {0., -0.25};
-  require(abut_points_friction(s.points, &s.places, value, back, states, sums));
+  require(abut_points_friction(s.points, s.n_pairs, value, back, states, sums));
   near(sums[0].dissipation, 0., 0., "sum");
-  require(abut_points_friction(s.points, &s.places, value, slip, NULL, sums));
+  require(abut_points_friction(s.points, s.n_pairs, value, slip, NULL, sums));
   assert_int_equal(sums[0].n_slipping, 0);
   near(sums[0].friction_force, 2. * 3. + 3. * 4., 1e-14, "sum");
   close_scene(&s);
@@ -119,11 +117,11 @@ test_corner(void **state)
   uint8_t states[6] = {ABUT_STATE_CLOSED, 0, ABUT_STATE_SLIP, 0,
                        ABUT_STATE_CLOSED, 0};
   abut_friction_sums sums[2];
-  require(abut_points_friction(s.points, &s.places, value, slip, states, sums));
+  require(abut_points_friction(s.points, s.n_pairs, value, slip, states, sums));
   near(sums[0].shared_stick_force, 2. * 10., 0., "sum");
   near(sums[1].shared_stick_force, 0., 0., "sum");
   states[2] = ABUT_STATE_OPEN;
-  require(abut_points_friction(s.points, &s.places, value, slip, states, sums));
+  require(abut_points_friction(s.points, s.n_pairs, value, slip, states, sums));
   near(sums[0].shared_stick_force, 0., 0., "sum");
   close_scene(&s);
 }
@@ -153,7 +151,7 @@ test_cover(void **state)
     add(&s, 2, -1, 0.3, 0.3, 1., ABUT_POINT_CONTACT);
     uint8_t keep[10];
     memset(keep, 1, sizeof(keep));
-    require(abut_points_cover(s.points, &s.places, marks[k], keep));
+    require(abut_points_cover(s.points, s.n_pairs, marks[k], keep));
     for (int row = 0; row < 10; ++row)
       assert_int_equal(keep[row], row / 2 != covered[k]);
     close_scene(&s);
@@ -166,7 +164,7 @@ test_cover(void **state)
     add(&s, 0, 0, 0., 0.1, 1., ABUT_POINT_CONTACT);
     add(&s, 1, 0, 0., nearer ? 0.05 : 0.1, 1., ABUT_POINT_CONTACT);
     uint8_t keep[4] = {1, 1, 1, 1};
-    require(abut_points_cover(s.points, &s.places, marks[4], keep));
+    require(abut_points_cover(s.points, s.n_pairs, marks[4], keep));
     for (int row = 0; row < 4; ++row)
       assert_int_equal(keep[row], row / 2 != (nearer ? 0 : 1));
     close_scene(&s);
@@ -188,9 +186,9 @@ test_rivals(void **state)
   add(&s, 2, -1, 0., 0., 1., ABUT_POINT_CONTACT);
   const int32_t first[4] = {0, 2, 8, 10};
   int32_t n = -1, point[8], row[8];
-  require(abut_points_rivals(s.points, &s.places, 4, first, &n, NULL, NULL));
+  require(abut_points_rivals(s.points, 4, first, &n, NULL, NULL));
   assert_int_equal(n, 4);
-  require(abut_points_rivals(s.points, &s.places, 4, first, &n, point, row));
+  require(abut_points_rivals(s.points, 4, first, &n, point, row));
   const int32_t points[4] = {0, 0, 2, 2}, rows[4] = {4, 8, 0, 4};
   for (int k = 0; k < 4; ++k)
   {
@@ -211,23 +209,14 @@ test_arguments(void **state)
   uint8_t keep[2] = {1, 1};
   int32_t n = 0, first = 0;
   abut_friction_sums sums;
-  assert_int_equal(
-      abut_points_friction(s.points, NULL, value, value, NULL, &sums),
-      ABUT_INVALID_ARGUMENT);
-  assert_int_equal(
-      abut_points_friction(s.points, &s.places, NULL, value, NULL, &sums),
-      ABUT_INVALID_ARGUMENT);
-  assert_int_equal(abut_points_cover(s.points, &s.places, NULL, keep),
+  assert_int_equal(abut_points_friction(s.points, 0, value, value, NULL, &sums),
                    ABUT_INVALID_ARGUMENT);
   assert_int_equal(
-      abut_points_rivals(s.points, &s.places, 1, &first, &n, &n, NULL),
+      abut_points_friction(s.points, s.n_pairs, NULL, value, NULL, &sums),
       ABUT_INVALID_ARGUMENT);
-  s.node[0] = 10;
-  assert_int_equal(abut_points_cover(s.points, &s.places, keep, keep),
+  assert_int_equal(abut_points_cover(s.points, s.n_pairs, NULL, keep),
                    ABUT_INVALID_ARGUMENT);
-  s.node[0] = 4;
-  s.pair[0] = 1;
-  assert_int_equal(abut_points_cover(s.points, &s.places, keep, keep),
+  assert_int_equal(abut_points_rivals(s.points, 1, &first, &n, &n, NULL),
                    ABUT_INVALID_ARGUMENT);
   close_scene(&s);
 }

@@ -369,11 +369,11 @@ foreign_bytes_are_named(void **unused)
   char *blob = pack(s.history, ABUT_HISTORY_TRIAL, &bytes);
   char text[300];
   memset(text, 'x', sizeof(text));
-  assert_refused(&s, &kept, text, sizeof(text), "no history of contact");
+  assert_refused(&s, &kept, text, sizeof(text), "not a contact history");
   const uint32_t order = 0x01020304, swapped = 0x04030201, later = 2;
   assert_memory_equal(blob + 8, &order, 4);
   memcpy(blob + 8, &swapped, 4);
-  assert_refused(&s, &kept, blob, bytes, "another order of bytes");
+  assert_refused(&s, &kept, blob, bytes, "another byte order");
   memcpy(blob + 8, &order, 4);
   memcpy(blob + 12, &later, 4);
   assert_refused(&s, &kept, blob, bytes, "another version");

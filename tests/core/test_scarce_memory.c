@@ -12,8 +12,12 @@
 #include "scarce.h"
 #include "scenes.h"
 
+#include <abut/contact_measures.h>
 #include <abut/coupling_search.h>
+#include <abut/interface.h>
 #include <abut/missed_contact.h>
+#include <abut/obstacle_facets.h>
+#include <abut/pair_checks.h>
 
 #include <string.h>
 
@@ -33,6 +37,7 @@ typedef struct world
   abut_pairs *pairs;
   abut_detection *detection;
   abut_coupling *coupling;
+  abut_interface *pair;
   abut_points *points;
   abut_obstacle *obstacle;
   abut_history *history, *other;
@@ -79,6 +84,7 @@ forget(world *w)
   assert_ok(abut_history_destroy(&w->history));
   assert_ok(abut_history_destroy(&w->other));
   assert_ok(abut_coupling_destroy(&w->coupling));
+  assert_ok(abut_interface_destroy(&w->pair));
   assert_ok(abut_points_destroy(&w->points));
   assert_ok(abut_detection_destroy(&w->detection));
   assert_ok(abut_search_destroy(&w->search));
@@ -397,6 +403,88 @@ obstacles(world *w)
   return build(w, NULL);
 }
 
+/* A pair of bodies that move, and its points. kind = discretisation */
+static abut_status
+interfaces(world *w)
+{
+  TRY(make_surfaces(w, ABUT_FACET_QUAD4, 0.05));
+  abut_interface_options options = abut_interface_defaults();
+  options.coupling.discretisation = (abut_discretisation)w->kind;
+  options.kinematics = ABUT_KINEMATICS_CURRENT;
+  options.facet_size = 0.5;
+  TRY(abut_interface_create(w->context, w->a, w->b, NULL, &options, &w->pair));
+  TRY(abut_points_create(w->context, w->mesh_a.dimension, &w->points));
+  const int32_t n = w->mesh_a.n_nodes + w->mesh_b.n_nodes;
+  double position[384], displacement[384] = {0.}, clearance[64];
+  assert_in_range(3 * n, 1, 384);
+  memcpy(position, w->mesh_a.position,
+         (size_t)w->mesh_a.n_nodes * 3 * sizeof(double));
+  memcpy(position + 3 * w->mesh_a.n_nodes, w->mesh_b.position,
+         (size_t)w->mesh_b.n_nodes * 3 * sizeof(double));
+  TRY(abut_interface_move(w->pair, n, position));
+  abut_interface_target target = abut_interface_target_defaults(w->points);
+  target.n_nodes = n;
+  target.displacement = displacement;
+  TRY(abut_interface_build(w->pair, &target));
+  abut_points_view view;
+  abut_places_view places;
+  TRY(abut_points_get(w->points, &view));
+  TRY(abut_points_get_places(w->points, &places));
+  note(w, places.n_points);
+  note(w, view.n_points > 0 ? view.gap[0] : 0.);
+  if (view.n_components > 64)
+    return ABUT_SUCCESS;
+  TRY(abut_interface_clearances(w->pair, w->points, NULL, 0.2, 0., n,
+                                clearance));
+  note(w, view.n_points > 0 ? clearance[0] : 0.);
+  double value[64];
+  uint8_t states[64];
+  for (int i = 0; i < 64; ++i)
+  {
+    value[i] = 1.;
+    states[i] = 1; /* closed */
+  }
+  const abut_kinematics kinematics[1] = {ABUT_KINEMATICS_CURRENT};
+  const abut_node_positions nodes = {
+      sizeof(nodes), n, 1, position, NULL, displacement, kinematics};
+  abut_direction_change change;
+  TRY(abut_interface_rotation(w->pair, w->points, &nodes, value, states,
+                              &change));
+  note(w, change.force);
+  return ABUT_SUCCESS;
+}
+
+/* A ball between the nodes of facets. */
+static abut_status
+obstacle_in_facets(world *w)
+{
+  TRY(make_surfaces(w, ABUT_FACET_QUAD4, 0.05));
+  TRY(make_obstacle(w, 0));
+  abut_facet_samples samples = abut_facet_samples_defaults();
+  samples.n = 3;
+  abut_facet_depth found[64];
+  abut_obstacle_beside beside;
+  int32_t n = 0;
+  double way = 0.;
+  TRY(abut_obstacle_in_facets(w->obstacle, w->a, &samples, found, &n));
+  TRY(abut_obstacle_passes_facets(w->obstacle, w->a, &samples,
+                                  w->mesh_a.position, &way));
+  TRY(abut_obstacle_narrowest(w->obstacle, w->a, &samples, &beside));
+  TRY(abut_obstacle_beside_facet(w->obstacle, w->a, &samples,
+                                 w->mesh_a.position, &beside));
+  int32_t same = 0, material = 0;
+  uint8_t marked[64];
+  bool bends = false;
+  double above = 0., below = 0.;
+  memset(marked, 1, sizeof(marked));
+  TRY(abut_obstacle_faces_away(w->obstacle, w->a, NULL, 0.1, &same, &material));
+  TRY(abut_surface_bends(w->a, 1., marked, &bends));
+  TRY(abut_surface_nearest(w->context, w->a, w->b, NULL, &above, &below));
+  note(w, n);
+  note(w, beside.width);
+  return ABUT_SUCCESS;
+}
+
 static abut_status
 scalar_points(world *w)
 {
@@ -413,17 +501,31 @@ scalar_points(world *w)
 static abut_status
 points_with_friction(world *w, const double *value)
 {
-  const int32_t node[14] = {0, 1, 0, 1, 0, 1, 0}, pair[14] = {0};
-  const abut_point_places places = {sizeof(places), 2, 1, node, pair};
+  const int32_t node[2] = {0, 1};
   const uint8_t closed[14] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1},
                 marks[1] = {ABUT_PAIR_FIXED_POINTS | ABUT_PAIR_FRICTION};
   const int32_t first[1] = {0};
   uint8_t keep[14] = {0};
   abut_friction_sums sums;
+  abut_points_view view;
   int32_t n_rivals = 0;
-  TRY(abut_points_friction(w->points, &places, value, value, closed, &sums));
-  TRY(abut_points_cover(w->points, &places, marks, keep));
-  TRY(abut_points_rivals(w->points, &places, 1, first, &n_rivals, NULL, NULL));
+  TRY(abut_points_get(w->points, &view));
+  for (int32_t i = 0; i < view.n_points; ++i)
+  {
+    abut_place place = abut_place_defaults();
+    place.node = node[i % 2];
+    place.position = view.frame;
+    place.line = place.column = node;
+    place.n_lines = place.n_columns = 2;
+    TRY(abut_points_append_place(w->points, &place));
+  }
+  const int32_t number[2] = {1, 0};
+  abut_place_changes changes;
+  TRY(abut_points_renumber_facets(w->points, 0, number));
+  TRY(abut_points_count_changes(w->points, w->points, closed, &changes));
+  TRY(abut_points_friction(w->points, 1, value, value, closed, &sums));
+  TRY(abut_points_cover(w->points, 1, marks, keep));
+  TRY(abut_points_rivals(w->points, 1, first, &n_rivals, NULL, NULL));
   note(w, sums.normal_force);
   note(w, n_rivals);
   return ABUT_SUCCESS;
@@ -638,6 +740,8 @@ couplings_without_memory(void **unused)
                               NULL)
           == ABUT_SUCCESS)
         deny_each(couplings, k + ABUT_DISCRETISATION_N * kind, 20);
+  for (int32_t k = 0; k < ABUT_DISCRETISATION_N; ++k)
+    deny_each(interfaces, k, 25);
 }
 
 static void
@@ -646,6 +750,7 @@ obstacles_without_memory(void **unused)
   (void)unused;
   for (int32_t kind = 0; kind < 3 * ABUT_DISCRETISATION_N; ++kind)
     deny_each(obstacles, kind, 10);
+  deny_each(obstacle_in_facets, 0, 8);
 }
 
 static void

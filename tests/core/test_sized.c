@@ -299,11 +299,11 @@ older_callers_remember(void **unused)
   old->struct_size = 8;
   assert_int_equal(abut_history_set(h, old), ABUT_INVALID_ARGUMENT);
   assert_non_null(strstr(abut_context_message(context), "abut_history_set: "));
-  assert_non_null(strstr(abut_context_message(context), "of no version"));
+  assert_non_null(strstr(abut_context_message(context), "to no version"));
   old_past->struct_size = 8;
   assert_int_equal(abut_history_get(h, ABUT_HISTORY_TRIAL, 1, &id, old_past),
                    ABUT_INVALID_ARGUMENT);
-  assert_non_null(strstr(abut_context_message(context), "of no version"));
+  assert_non_null(strstr(abut_context_message(context), "to no version"));
   free(old);
   free(old_past);
   require(abut_history_destroy(&h));

@@ -84,7 +84,7 @@ def main():
         scene = slide(Folder(folder), 40, 10, 12, 5, 22)
         subprocess.run(
             [arguments.abut, "run", scene, "--output", "out", "--quiet",
-             "--set", "Load steps/Newton tolerance=1e-12",
+             "--set", "Time stepping/Newton tolerance=1e-12",
              "--set", "Method/Final linear tolerance=1e-14"],
             cwd=folder, check=True)
         with open(pathlib.Path(folder) / "out/levels.csv",

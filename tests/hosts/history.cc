@@ -297,7 +297,7 @@ namespace
              "refused with '" + text + "', without '" + word + "'");
     };
     expect_refused("", "cut off");
-    expect_refused(std::string(1000, 'x'), "no history of contact");
+    expect_refused(std::string(1000, 'x'), "not a contact history");
     expect_refused(bytes.substr(0, 30), "cut off");
     const std::size_t half = bytes.size() / 2;
     expect_refused(bytes.substr(0, half - 1), "cut off");

@@ -402,7 +402,7 @@ namespace
     expect_need("Method/System = saddle point", method);
     method = MethodParameters();
     method.kinematics = ABUT_KINEMATICS_CURRENT;
-    expect_need("Contact at points that move (Method/Sliding)", method);
+    expect_need("Contact at points that move (Method/Contact geometry)", method);
     SolverParameters solver;
     solver.linear = SolverParameters::Linear::direct;
     expect_need("Solver/Linear solver = direct", {}, solver);
@@ -415,7 +415,7 @@ namespace
 
     run.fixed = {block_side::bottom};
     ElasticBlocks<2> loose(run);
-    expect_error("Nothing holds the bodies",
+    expect_error("Bodies without supports",
                  [&] { press(loose, pair, *loose.stiffness); });
   }
 } // namespace

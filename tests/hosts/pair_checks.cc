@@ -58,7 +58,7 @@ namespace
     pair.primary = {hosts::lower_interface};
     pair.secondary = {hosts::top};
     pair.reach = 2.;
-    refuses(run, &pair, {"wheel on rail", "normals", "same way"});
+    refuses(run, &pair, {"wheel on rail", "normals", "same direction"});
 
     run.method =
         hosts::method("lagrange", ABUT_DISCRETISATION_QUADRATURE_POINT);

@@ -48,11 +48,8 @@ ROOMS = [
     ("app/scenes/scene_kinds.cc",
      "app/scenes app/scenes/obstacle app/scenes/solid app/scenes/point_mass "
      "app/scenes/search"),
-    ("app/chart", "app/input app/process app/report app/pictures app/scenes "
-                  "shim"),
-    ("app/atlas", "app/input app/process app/report app/pictures"),
-    ("app/command", "app/input app/process app/restart app/report app/scenes "
-                    "app/chart app/atlas"),
+    ("app/command", "app/input app/process app/restart app/report "
+                    "app/scenes"),
 ]
 
 

@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OBJECT = re.compile(r"(?<!const )\babut_(context|surface|search|pairs|detection"
-                    r"|coupling|points|obstacle|history|strategy|multigrid) \*")
+                    r"|coupling|interface|points|obstacle|history|strategy|multigrid) \*")
 CALL = re.compile(r"ABUT_API\s+abut_status\s+(abut_\w+?)(?:_sized)?\(([^;]*)\);")
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lint of words finds what it must find, with file and line, and nothing
-else: not in strings, not in the middle of other words, not where an exception
-stands. Its lists can be read, and each exception has a reason."""
+else: not in the middle of other words, not where an exception stands, and in
+strings only where they are texts of several words. Its lists can be read, and
+each exception has a reason."""
 import importlib.machinery
 import importlib.util
 import pathlib
@@ -20,7 +21,18 @@ What\b => a noun
 [identifier]
 ten_times => force_sum_factor
 take(?:_mutable)? => checked_vector
+[text]
+\bbeside\b => relative to
 """
+
+# Texts for users, in one literal or several, and strings that are none.
+TEXTS = r'''const char *a = "the gap is told "  // told
+                  "beside\nthe force. What is new";
+const char *b = "beside", c = 'x'; f("told" + x + "an edge beside it");
+g(R"(abut --help is
+   told)");
+'''
+TEXTS_FOUND = [(1, "told"), (2, "What"), (2, "beside"), (3, "beside"), (5, "told")]
 
 SOURCE = r'''// SPDX-License-Identifier: LGPL-2.1-or-later
 // What begins a file.
@@ -70,6 +82,12 @@ def main():
     found = sorted((SOURCE.count("\n", 0, place) + 1, word, use)
                    for place, word, use in words.findings(SOURCE, rules))
     expect("a source", found, FOUND)
+    found = sorted((TEXTS.count("\n", 0, place) + 1, word)
+                   for place, word, use in words.text_findings(TEXTS, rules))
+    expect("texts", found, TEXTS_FOUND)
+    long = 'f("' + " ".join(["word"] * 36) + '. A short one.");'
+    expect("a long sentence", [use for _, _, use in words.text_findings(long, rules)],
+           ["shorter sentences: this one has 36 words"])
     texts = {"a.h": "// anew\n", "b.h": "// anew\n"}
     exceptions = words.read_exceptions("# none\na.h | anew | a quotation\n"
                                        "b.h | told | a quotation\n")

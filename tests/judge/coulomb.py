@@ -121,7 +121,7 @@ class PairFriction:
         solid = self.solid
         return (solid.summary["method"] == "lagrange"
                 and not solid.large and not in_motion(solid.scene)
-                and solid.scene.get("Method/Sliding", "auto") != "large")
+                and solid.scene.get("Method/Contact geometry", "auto") != "current")
 
     def at_nodes(self, normal):
         solid = self.solid

@@ -60,13 +60,13 @@ def judge_driven_motion(judge, gammas):
         return
     texts = [scene.get("Solid/Gravity")] + [
         scene.get(f"Obstacle {n}/Force") for n, _ in obstacles]
-    scheme = scene.get("Time/Scheme")
+    scheme = scene.get("Time stepping/Scheme")
     if scheme not in gammas or any("t" in text for text in texts):
         solid.findings.leave("momentum of obstacles", "forces change, or the "
                              "scheme weights accelerations")
         return
     gamma = gammas[scheme](
-        lambda name, default: scene.number(f"Time/{name}", default))
+        lambda name, default: scene.number(f"Time stepping/{name}", default))
     worst = size = 0.
     for number, free in obstacles:
         mass = scene.number(f"Obstacle {number}/Mass", 0.)

@@ -26,9 +26,10 @@ class Parameter:
         if not re.match(r"a (whole )?number", self.kind):
             return None
         low, high = -math.inf, math.inf
-        for pattern, which in ((r"from (\S+)", 0), (r"at least (\S+)", 0),
-                               (r"above (\S+)", 0), (r" to (\S+)", 1)):
-            found = re.search(pattern, self.kind)
+        for pattern, which in ((r"from (NUMBER)", 0), (r"at least (NUMBER)", 0),
+                               (r"above (NUMBER)", 0), (r" to (NUMBER)", 1)):
+            found = re.search(pattern.replace("NUMBER", r"[-+.\de]+"),
+                              self.kind)
             if found:
                 low, high = ((float(found[1]), high) if which == 0 else
                              (low, float(found[1])))
@@ -53,7 +54,7 @@ class Parameter:
         if whole:
             return str(int(random.triangular(max(low, 0), min(
                 high, max(low, 0) + 20), max(low, 0))))
-        if self.default and self.default not in ("0", "nan"):
+        if re.match(r"-?\d", self.default) and float(self.default) != 0.:
             centre = float(self.default)
         else:
             centre = random.choice([0.1, 1., 10.])
@@ -62,22 +63,18 @@ class Parameter:
 
 
 def read_reference(text):
-    """Parameters by kind of scene and section; numbers of sections are 1."""
-    result, kind, section = {}, None, ""
+    """Parameters of what `abut parameters --scene KIND` prints, by section;
+    numbers of sections are 1."""
+    result, section = {}, ""
     for line in text.split("\n"):
-        if line.startswith("## "):
-            found = re.match(r"## Scene `(.*)`", line)
-            kind, section = found and found[1], ""
-            if kind:
-                result[kind] = {}
-        found = re.match(r"### (.*) \(", line)
+        found = re.match(r"### (.*)", line)
         if found:
-            section = found[1]
-        found = re.match(r"- \*\*(.*?)\*\* = (?:`(.*?)`|\(empty\)) \((.*?)\)\. ",
-                         line)
-        if found and kind:
-            result[kind][f"{section}/{found[1]}"] = Parameter(
-                found[1], found[2] or "", found[3])
+            section = found[1].replace(" N", " 1")
+        found = re.match(r"- \*\*(.*?)\*\* = (?:`(.*?)`|\(empty\)|\(required\)) "
+                         r"\((.*?)(?:; [^;)]*)+\)\. ", line)
+        if found:
+            name = found[1] if section == "Scene" else f"{section}/{found[1]}"
+            result[name] = Parameter(found[1], found[2] or "", found[3])
     return result
 
 
@@ -85,11 +82,11 @@ NUMBER = re.compile(r"(?<![\w.])\d+\.?\d*(?:[eE][-+]?\d+)?")
 
 # What is not changed: it would only make runs longer, or files elsewhere.
 KEPT = ("Scene", "Dimension", "Title", "Refinement/Level",
-        "Refinement/Adaptive cycles", "Refinement/Most meshes",
+        "Refinement/Adaptive cycles", "Refinement/Maximum meshes",
         "Output/Fields", "Output/Nodal values", "Output/Pictures",
         "Output/Linear solves for comparison", "Method/Law file",
         "Method/Friction file",
-        "Method/Maximum steps", "Checkpoint/Every minutes",
+        "Method/Maximum linear systems", "Checkpoint/Every minutes",
         "Checkpoint/Every steps")
 
 
@@ -112,7 +109,7 @@ class Mutation:
             steps += [self.pair, self.obstacle, self.obstacle, self.material,
                       self.plane, self.load_steps, self.discretisation,
                       self.friction]
-        if kind == "motion" or self.values.get("Time/Scheme"):
+        if kind == "motion" or self.values.get("Time stepping/Scheme"):
             steps += [self.time, self.time, self.time]
         for _ in range(random.choice([1, 1, 1, 2, 2, 3])):
             random.choice(steps)()
@@ -158,9 +155,8 @@ class Mutation:
     # Steps
 
     def number(self):
-        names = self.given("Support", "Traction", "Pressure", "Body force",
-                           "Motion", "Expression", "Load", "Dirichlet",
-                           "Obstacle", "Neumann", "Centre", "Point", "Radius",
+        names = self.given("Prescribed displacement", "Traction", "Pressure", "Body force",
+                           "Motion", "Expression", "Obstacle", "Centre", "Point", "Radius",
                            "Angle", "Initial", "Gravity", "Conductivity",
                            "Normal", "Friction", "Acceleration", "Gap",
                            "Force on first", "Density")
@@ -172,7 +168,7 @@ class Mutation:
     def parameter(self):
         names = [n for n in self.parameters if n.split("/")[0] in (
             "Method", "Solver", "Search", "Refinement", "Pair 1", "Obstacle 1",
-            "Body 1", "Load steps", "Time", "Masses", "Bar", "Motion",
+            "Body 1", "Time stepping", "Masses", "Bar", "Motion",
             "Contact") and n not in KEPT]
         name = self.random.choice(names)
         section = name.split("/")[0]
@@ -187,7 +183,7 @@ class Mutation:
                 if w != "user"]
         self.set("Method/Enforcement", self.random.choice(laws))
         if self.random.random() < 0.3:
-            self.set("Method/Penalty",
+            self.set("Method/Penalty factor",
                      f"{10**self.random.uniform(-1, 5):.4g}")
 
     def discretisation(self):
@@ -198,7 +194,7 @@ class Mutation:
         """Another unit of force, of length or both."""
         force = 10.**self.random.randint(-9, 9)
         names = (["Young modulus", "Traction", "Pressure", "Body force"]
-                 if self.is_solid else ["Conductivity", "Load", "Neumann"])
+                 if self.is_solid else ["Conductivity", "Body force", "Traction"])
         if not self.is_solid and not self.given("Conductivity"):
             self.set("Membrane/Conductivity", "1")
         for name in self.given(*("/" + n for n in names)):
@@ -265,7 +261,7 @@ class Mutation:
             if text:
                 self.set(f"{section}/{side}", re.sub(r":.*", ": *", text))
         else:
-            self.set(f"{section}/Mesh gap", random.choice(["true", "false"]))
+            self.set(f"{section}/Use mesh gap", random.choice(["true", "false"]))
 
     def obstacle(self):
         section = "Obstacle 1"
@@ -333,7 +329,7 @@ class Mutation:
             self.parameters["Solid/Plane"].choices()))
 
     def load_steps(self):
-        self.set("Load steps/Steps", self.random.randint(1, 4))
+        self.set("Time stepping/Number of steps", self.random.randint(1, 4))
 
     def friction(self):
         """Coefficient of a pair: none, a number or a formula."""
@@ -349,17 +345,17 @@ class Mutation:
         random = self.random
         choice = random.randrange(5)
         if choice < 2:
-            self.set("Time/Scheme", random.choice(
-                [w for w in self.parameters["Time/Scheme"].choices()
-                 if w != "none"]))
-            for name in ("Alpha", "Restitution"):
-                self.values.pop(f"Time/{name}", None)
-        elif choice == 2 and "Time/Step" in self.values:
-            step = float(self.values["Time/Step"])
-            self.set("Time/Step", f"{step * 2**random.uniform(-1, 4):.6g}")
+            self.set("Time stepping/Scheme", random.choice(
+                [w for w in self.parameters["Time stepping/Scheme"].choices()
+                 if w != "quasi-static"]))
+            for name in ("HHT alpha", "Restitution"):
+                self.values.pop(f"Time stepping/{name}", None)
+        elif choice == 2 and "Time stepping/Step size" in self.values:
+            step = float(self.values["Time stepping/Step size"])
+            self.set("Time stepping/Step size", f"{step * 2**random.uniform(-1, 4):.6g}")
         elif choice == 3:
-            self.set("Time/Mass", random.choice(
-                self.parameters["Time/Mass"].choices()))
+            self.set("Time stepping/Mass matrix", random.choice(
+                self.parameters["Time stepping/Mass matrix"].choices()))
         else:
-            end = float(self.values.get("Time/End", 1))
-            self.set("Time/End", f"{end * random.uniform(0.2, 1.2):.6g}")
+            end = float(self.values.get("Time stepping/End time", 1))
+            self.set("Time stepping/End time", f"{end * random.uniform(0.2, 1.2):.6g}")

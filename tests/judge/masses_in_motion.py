@@ -39,8 +39,8 @@ class MassesInMotionJudge:
         self.masses = numbers(folder / "masses.csv")
         self.dim = int(scene.get("Dimension", "1"))
         self.axes = ["x", "y"][:self.dim - 1] + ["height"]
-        self.is_bar = int(scene.get("Bar/Elements", "0")) > 0
-        self.scheme = scene.get("Time/Scheme", "velocity level")
+        self.is_bar = scene.number("Bar/Elements", 0) > 0
+        self.scheme = scene.get("Time stepping/Scheme", "velocity level")
         self.mass = scene.number("Masses/Mass", 1)
         self.total = (scene.number("Bar/Density", 1)
                       * scene.number("Bar/Length", 1) if self.is_bar
@@ -77,7 +77,7 @@ class MassesInMotionJudge:
                        abs(last[name] - self.summary[name]), "tables",
                        self.energy)
         self.check("time of the end", abs(
-            last["time"] - self.scene.number("Time/End", 1)), "tables",
+            last["time"] - self.scene.number("Time stepping/End time", 1)), "tables",
             2 * last["time"])
 
     def contact(self):

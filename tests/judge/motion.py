@@ -9,9 +9,9 @@ from thresholds import THRESHOLDS
 from verdict import says
 
 # Weight gamma of the new acceleration in the velocity of a step.
-GAMMAS = {"hht": lambda number: 0.5 - number("Alpha", -0.1),
+GAMMAS = {"hht": lambda number: 0.5 - number("HHT alpha", -0.1),
           "trapezoid": lambda number: 0.5, "midpoint": lambda number: 1.,
-          "newmark": lambda number: number("Gamma", 0.5),
+          "newmark": lambda number: number("Newmark gamma", 0.5),
           # Contact acts by a jump of the velocity, and at the middle.
           "contact stabilised": lambda number: 1.,
           "central difference with projection": lambda number: 1.}
@@ -22,11 +22,11 @@ PROJECTING = ("contact stabilised", "central difference with projection")
 
 
 def in_motion(scene):
-    return scene.get("Time/Scheme", "none") != "none"
+    return scene.get("Time stepping/Scheme", "quasi-static") != "quasi-static"
 
 
 class MotionJudge:
-    """What a run of the scene `solid` with Time/Scheme wrote step by step."""
+    """What a run of the scene `solid` with Time stepping/Scheme wrote step by step."""
 
     def __init__(self, solid):
         self.solid, self.scene = solid, solid.scene
@@ -64,8 +64,8 @@ class MotionJudge:
         """No step has more than there was at the start and the scheme gains."""
         start = self.solid.summary["initial_energy"]
         scale = max([abs(start)] + [abs(r["external_work"]) for r in self.rows])
-        scheme = self.scene.get("Time/Scheme")
-        exact = (self.scene.get("Time/Mass", "auto") in ("auto", "modified")
+        scheme = self.scene.get("Time stepping/Scheme")
+        exact = (self.scene.get("Time stepping/Mass matrix", "auto") in ("auto", "modified")
                  or scheme in PROJECTING or not self.solid.pairs)
         if not exact:
             self.solid.findings.leave(
@@ -87,15 +87,15 @@ class MotionJudge:
 
     def unknown_forces(self):
         """Why the table does not have all outer forces, or nothing."""
-        if self.scene.get("Time/Scheme") not in GAMMAS:
+        if self.scene.get("Time stepping/Scheme") not in GAMMAS:
             return "the scheme weights accelerations"
         if self.solid.plane == "axisymmetric":
             return "radial forces have no resultant"
         for body in range(1, self.solid.n_bodies + 1):
-            for name in ("Support", "Traction", "Pressure", "Body force"):
+            for name in ("Prescribed displacement", "Traction", "Pressure", "Body force"):
                 if self.scene.get(f"Body {body}/{name}"):
                     return "supports and loads are not in the table"
-        if self.scene.number("Time/Mass damping", 0.):
+        if self.scene.number("Time stepping/Mass damping", 0.):
             return "damping is not in the table"
         if any("t" in part for part in split(self.scene.get("Solid/Gravity"),
                                              ",")):
@@ -119,9 +119,9 @@ class MotionJudge:
     def momentum(self):
         """What obstacles and weight give in each step: between bodies forces
         cancel."""
-        number = lambda name, default: self.scene.number(f"Time/{name}",
+        number = lambda name, default: self.scene.number(f"Time stepping/{name}",
                                                          default)
-        gamma = GAMMAS[self.scene.get("Time/Scheme")](number)
+        gamma = GAMMAS[self.scene.get("Time stepping/Scheme")](number)
         worst = size = longest = 0.
         for mass, (column, forces) in zip(self.solid.summary["mass"],
                                           self.forces()):
@@ -146,14 +146,14 @@ class MembraneMotionJudge(MotionJudge):
     """The same of the scene `obstacle`."""
 
     def unknown_forces(self):
-        if self.scene.get("Time/Scheme") not in GAMMAS:
+        if self.scene.get("Time stepping/Scheme") not in GAMMAS:
             return "the scheme weights accelerations"
-        if (self.scene.get("Membrane/Dirichlet", "*: 0")
-                or self.scene.get("Membrane/Neumann")):
+        if (self.scene.get("Membrane/Prescribed displacement", "*: 0")
+                or self.scene.get("Membrane/Traction")):
             return "what holds and pulls the edge is not in the table"
-        if self.scene.number("Time/Mass damping", 0.):
+        if self.scene.number("Time stepping/Mass damping", 0.):
             return "damping is not in the table"
-        if "t" in self.scene.get("Membrane/Load", "0"):
+        if "t" in self.scene.get("Membrane/Body force", "0"):
             return "the load may change"
         return ""
 

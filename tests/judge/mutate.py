@@ -9,7 +9,7 @@
 
 A seed stands for one scene. Base scenes are first cut to at most 2000
 unknowns, and fewer, or to a part of their motion, where they have many steps.
-Runs on one rank are those of abut_served, which is loaded once. Each run must end within its time with exit code 0 (and then be
+Runs on one rank are by `abut serve`, which is loaded once. Each run must end within its time with exit code 0 (and then be
 judged right, or be nothing that can be judged), 2 with an error message, or 3.
 Results go to a file line by line: a run that was interrupted goes on where it
 was. With --sanitized PROGRAM every tenth scene is run by that program too, with
@@ -51,7 +51,7 @@ def cut(scene, level, part, source):
         scene.values[key] = str(value)
     if part < 1 and (source.random() > WHOLE or part * MORE < 1):
         shorten(scene, part)
-    if scene.get("Time/Scheme", "none") != "none":
+    if scene.get("Time stepping/Scheme", "quasi-static") != "quasi-static":
         scene.values["Output/Every"] = "1000000"
 
 
@@ -70,7 +70,7 @@ def cut_again(scene, base, steps):
         shorten(scene, MORE * steps / n_steps(scene))
     if scene.get("Refinement/Target error") != base.get(
             "Refinement/Target error"):
-        scene.values["Refinement/Most meshes"] = "4"
+        scene.values["Refinement/Maximum meshes"] = "4"
 
 
 def make_case(seed, levels, reference):
@@ -200,9 +200,12 @@ def read_list(path):
 
 def make_cases(seeds, options, abut):
     """Cases of seeds, one after the other."""
-    reference = read_reference(subprocess.run(
-        [abut, "parameters"], capture_output=True, text=True,
-        check=True).stdout)
+    reference = {
+        kind: read_reference(subprocess.run(
+            [abut, "parameters", "--scene", kind], capture_output=True,
+            text=True, check=True).stdout)
+        for kind in ("obstacle", "point mass", "chain of masses", "motion",
+                     "solid")}
     levels = find_levels(abut, options.levels, options.bases)
     return (make_case(seed, levels, reference) for seed in seeds)
 
@@ -241,8 +244,7 @@ def main():
                         default=ROOT / "build/release/abut")
     parser.add_argument("--sanitized", type=pathlib.Path)
     parser.add_argument("--served", type=pathlib.Path,
-                        help="the program for many runs; abut_served beside "
-                        "the program, if it is there")
+                        help="the program for many runs (default: that of --abut)")
     parser.add_argument("--seeds", default="0:200", help="FIRST:END")
     parser.add_argument("--bases", nargs="+", default=["*"],
                         metavar="PATTERN", help="names of scenes in prm/")
@@ -257,8 +259,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     abut = options.abut.resolve()
-    served = options.served or abut.parent / "abut_served"
-    stand_in(abut, served if served.exists() else None)
+    stand_in(abut, options.served or abut)
     trial = Trial(abut, options.sanitized and options.sanitized.resolve())
     first, _, end = options.seeds.partition(":")
     listed = (read_list(options.list)[::options.every] if options.list

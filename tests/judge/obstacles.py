@@ -41,7 +41,7 @@ class Obstacle:
     def _points_move(self):
         """Whether gaps are measured where bodies are, normal to a height."""
         get = self.scene.get
-        sliding = get("Method/Sliding", "auto")
+        sliding = get("Method/Contact geometry", "auto")
         return sliding == "large" or (
             sliding == "auto" and get("Body 1/Material", "hooke") != "hooke"
             and get("Method/Discretisation", "auto") in

@@ -14,8 +14,8 @@ import tempfile
 from scene import Scene
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "tests/app"))
-from served import Served  # noqa: E402
+sys.path.insert(0, str(ROOT / "plugin/tools"))
+from abut_tools.served import Served  # noqa: E402
 
 MOST_UNKNOWNS = 2000
 WAITING = 15  # real by processor time, on a machine with other work
@@ -128,23 +128,23 @@ def small(level):
 
 def n_steps(scene):
     """Load or time steps of a scene."""
-    if scene.get("Time/Scheme", "none") == "none":
-        return scene.number("Load steps/Steps", 1.)
-    step = scene.number("Time/Step", 0.)
-    return scene.number("Time/End", 1.) / step if step > 0 else 1.
+    if scene.get("Time stepping/Scheme", "quasi-static") == "quasi-static":
+        return scene.number("Time stepping/Number of steps", 1.)
+    step = scene.number("Time stepping/Step size", 0.)
+    return scene.number("Time stepping/End time", 1.) / step if step > 0 else 1.
 
 
 def shorten(scene, part):
     """Cut a scene to the first part of its motion."""
     steps = max(1, round(part * n_steps(scene)))
-    if scene.get("Time/Scheme", "none") == "none":
-        end = scene.number("Load steps/End time", 1.)
+    if scene.get("Time stepping/Scheme", "quasi-static") == "quasi-static":
+        end = scene.number("Time stepping/End time", 1.)
         end *= steps / n_steps(scene)
-        scene.values["Load steps/End time"] = f"{end:.12g}"
-        scene.values["Load steps/Steps"] = str(steps)
+        scene.values["Time stepping/End time"] = f"{end:.12g}"
+        scene.values["Time stepping/Number of steps"] = str(steps)
     else:
-        step = scene.number("Time/Step", 0.)
-        scene.values["Time/End"] = f"{steps * step:.12g}"
+        step = scene.number("Time stepping/Step size", 0.)
+        scene.values["Time stepping/End time"] = f"{steps * step:.12g}"
 
 
 def unknowns_of(abut, path, overrides, level):

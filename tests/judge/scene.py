@@ -1,6 +1,29 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A scene file as the judge reads it: values by section and name."""
+import functools
+import pathlib
 import re
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+@functools.cache
+def old_names():
+    """Patterns of names and `name = word` that have changed, with the new
+    ones, as the reference lists them."""
+    text = (ROOT / "doc/parameters.md").read_text(encoding="utf-8")
+    table = text.split("\n## Old names\n")[1].split("\n## ")[0]
+    return [(re.compile(re.escape(old).replace(r"\*", r"(\d+)")), new)
+            for old, new in re.findall(r"\| `(.*?)` \| `(.*?)` \|", table)]
+
+
+def renamed(text):
+    """A name, or `name = word`, as it is today."""
+    for old, new in old_names():
+        found = old.fullmatch(text)
+        if found:
+            return new.replace("*", found[1]) if found.groups() else new
+    return text
 
 
 class Scene:
@@ -12,7 +35,7 @@ class Scene:
         self._read(path.read_text(encoding="utf-8"))
         for text in overrides:
             name, _, value = text.partition("=")
-            self.values[self._key(name)] = value.strip()
+            self._set(self._key(name), value.strip())
 
     @staticmethod
     def _key(name):
@@ -31,13 +54,21 @@ class Scene:
                 sections.pop()
             elif words[0] == "set":
                 name, _, value = words[1].partition("=")
-                self.values["/".join([*sections, name.strip()])] = value.strip()
+                self._set("/".join([*sections, name.strip()]), value.strip())
+
+    def _set(self, name, value):
+        name = renamed(name)
+        self.values[name] = renamed(f"{name} = {value}").removeprefix(
+            f"{name} = ")
 
     def get(self, name, default=""):
         return self.values.get(name, default)
 
     def number(self, name, default):
-        return float(self.get(name, str(default)))
+        """A number; words such as `none` and `auto` are 0."""
+        value = self.get(name, str(default))
+        return 0. if re.fullmatch("auto|none|never|infinite", value) else float(
+            value)
 
     def flag(self, name, default=False):
         return self.get(name, "true" if default else "false").lower() in (

@@ -33,9 +33,9 @@ class Pair:
         self.number = number
         self.secondary = self._surface(scene.get(f"{section}/Secondary"))
         self.primary = self._surface(scene.get(f"{section}/Primary"))
-        self.obstacle = int(scene.get(f"{section}/Obstacle", "0"))
+        self.obstacle = int(scene.number(f"{section}/Obstacle", 0))
         self.tied = scene.flag(f"{section}/Tied")
-        self.mesh_gap = scene.flag(f"{section}/Mesh gap", True)
+        self.mesh_gap = scene.flag(f"{section}/Use mesh gap", True)
         gap = scene.get(f"{section}/Initial gap", "0") or "0"
         self.gap = Formula(gap)((0., 0., 0.), time)
 
@@ -87,7 +87,7 @@ class SolidJudge:
 
     def judge(self):
         blank = ("gap",)
-        if says(self.summary, "inside out at a corner"):
+        if says(self.summary, "inverted at a corner"):
             # there is no stress there, and the run says so
             blank += ("stress", "von_mises_stress", "stress_out_of_plane")
         self.fields = Fields(self.folder, "fields", self.nodes, blank)
@@ -151,7 +151,7 @@ class SolidJudge:
         """Of forces that are in balance: of large strain also Newton's
         tolerance, which is of the forces that it would take to stop bodies
         within a facet on the way of a step."""
-        newton = self.scene.number("Load steps/Newton tolerance", 1e-8)
+        newton = self.scene.number("Time stepping/Newton tolerance", 1e-8)
         return self.round_off(max(1e-13, newton if self.large else 0.))
 
     # Files
@@ -506,7 +506,7 @@ class SolidJudge:
         of_no_use = (self.summary.get("largest_strain", 0.)
                      > THRESHOLDS["strain"].value)
         if of_no_use or says(self.summary, "ABUT-F36",
-                             "in the body between nodes"):
+                             "penetrates between nodes"):
             self.findings.leave(f"penetration of pair {pair.number}",
                                 "the run says that shapes or gaps are off")
             return
@@ -644,8 +644,8 @@ class SolidJudge:
         # what rows leave that are linear where surfaces slide on each other
         slip = self.summary.get(f"pair_{pair.number}_slip") or 0.
         told = self.summary.get(f"pair_{pair.number}_gap_error") or 0.
-        follows = self.scene.get("Method/Sliding", "auto") == "large" or (
-            self.large and self.scene.get("Method/Sliding", "auto") == "auto")
+        follows = self.scene.get("Method/Contact geometry", "auto") == "current" or (
+            self.large and self.scene.get("Method/Contact geometry", "auto") == "auto")
         self.findings.check(
             name, clearance, limit.value * size
             + of_gaps(self.scene, self.summary, min(self.largest, size)) + told
@@ -844,7 +844,7 @@ class SolidJudge:
                     for pair in self.pairs if pair.obstacle)
         return (not moves and not in_motion(self.scene)
                 and self.summary["method"] == "lagrange"
-                and int(self.scene.get("Load steps/Steps", "1")) == 1
+                and int(self.scene.get("Time stepping/Number of steps", "1")) == 1
                 and not self.summary.get("load_steps_cut_back"))
 
     def initial_gaps(self):
@@ -855,7 +855,7 @@ class SolidJudge:
         if limit is None:
             return
         if (self.large
-                or self.scene.get("Method/Sliding", "auto") == "large"):
+                or self.scene.get("Method/Contact geometry", "auto") == "current"):
             self.findings.leave(name, "gaps need not be linear")
             return
         if self.by_stress:

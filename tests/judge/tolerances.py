@@ -13,7 +13,7 @@ def of_balance(scene, summary, large=False):
         least = THRESHOLDS["balance, direct"]
         # of large strain the error of displacements, in the energy norm, and
         # of multipliers that are updated
-        newton = scene.number("Load steps/Newton tolerance", 1e-8)
+        newton = scene.number("Time stepping/Newton tolerance", 1e-8)
         return (Threshold(max(least.value, 100 * newton), least.reason)
                 if large else least)
     least = THRESHOLDS["balance, iterative"]

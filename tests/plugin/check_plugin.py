@@ -145,7 +145,7 @@ def check_names(check, host):
     name, folder = check.plugin.name, str(check.plugin.parent)
     search = os.environ.get("LD_LIBRARY_PATH")
     check.refused(host, [("libabut_nowhere.so",
-                          ["no such file in the folders of libraries (", "/lib",
+                          ["no such file in the library folders (", "/lib",
                            "LD_LIBRARY_PATH"], False),
                          ("./libabut_nowhere.so",
                           ["no such file in the working folder",

@@ -103,7 +103,7 @@ def main():
         return
     with open(sys.argv[1]) as file:
         case = next(case for case in json.load(file)["cases"]
-                    if case["set"].get("Time/Scheme") == "energy momentum")
+                    if case["set"].get("Time stepping/Scheme") == "energy momentum")
     given = {key: case["summary"][key]["value"] for key in found
              if key in case["summary"]}
     given["force at 0.8"] = case["tables"]["levels.csv"]["columns"][

@@ -3,7 +3,7 @@
 """Run a scene and compare its results with figures known beforehand.
 
     run_scene.py --abut build/release/abut tests/scenes/NAME.json [--keep DIR]
-                 [--served build/release/abut_served]
+                 [--served build/release/abut]
 
 An expectation file holds these keys; `cases` holds a list of objects with the
 same keys, each of which is merged over the top ones and run by itself.
@@ -57,8 +57,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "tests/app"))
-from served import Served  # noqa: E402
+sys.path.insert(0, str(ROOT / "plugin/tools"))
+from abut_tools.served import Served  # noqa: E402
 
 RUN_SECONDS = 900
 
@@ -197,8 +197,7 @@ def environment():
 
 
 class Program:
-    """The program; runs on one rank are those of one that is loaded once, if it
-    is given (tests/app/served.cc)."""
+    """The program; runs on one rank are by `abut serve` of one that is given."""
 
     def __init__(self, abut, served=None):
         self.abut = str(abut)

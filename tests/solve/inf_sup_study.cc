@@ -75,7 +75,7 @@ namespace abut
         options.output_folder =
             std::filesystem::temp_directory_path() / "inf_sup_study";
         std::filesystem::create_directories(options.output_folder);
-        Report report(MPI_COMM_WORLD, true);
+        Report report(MPI_COMM_WORLD, Verbosity::quiet);
         loaded.scene->run(options, report);
       }
     } // namespace

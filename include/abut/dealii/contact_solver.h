@@ -312,11 +312,10 @@ namespace abut
         return true;
       return stop(NewtonReason::unbalanced,
                   "The residual at the answer is " + three_digits(part)
-                      + " of the load: it is not what the tangent is the "
-                        "derivative of. The residual is internal minus "
-                        "external forces; look at its sign, whether the "
-                        "problem is linear, and whether a large penalty has "
-                        "cost the linear system its digits.",
+                      + " of the load: the tangent is not its derivative. "
+                        "Check the sign of the residual (internal minus "
+                        "external forces), that the problem is linear, and "
+                        "that no large penalty causes round-off.",
                   ABUT_FAILURE_UNBALANCED);
     }
 
@@ -682,8 +681,8 @@ namespace abut
         result_.error = 1. - part + result_.residual / scales.force;
         if (result_.error <= parameters_.tolerance)
           result_.explanation =
-              "Forces balance, but the tangent is not positive along the last "
-              "step: the equilibrium may be unstable.";
+              "Forces are in balance, but the tangent is not positive along "
+              "the last increment: the equilibrium may be unstable.";
       }
       if (scales.energy > 0.)
         result_.error = std::max(result_.error, defect_ / scales.energy);
@@ -700,7 +699,7 @@ namespace abut
     bool stop_not_finite()
     {
       return stop(NewtonReason::not_finite,
-                  "The residual is not a number, even after "
+                  "The residual is not finite, even after "
                       + std::to_string(parameters_.max_halvings)
                       + " halvings of the step. Use smaller load steps.",
                   ABUT_FAILURE_NOT_FINITE);

@@ -121,8 +121,8 @@ namespace abut
           return "";
         where += (where.empty() ? "" : ", ") + folder;
       }
-      return "there is no such file in the folders of libraries (" + where
-             + "): give its whole path, or name its folder in LD_LIBRARY_PATH";
+      return "there is no such file in the library folders (" + where
+             + "): give its full path, or add its folder to LD_LIBRARY_PATH";
     }
 
     /** Look at a file without running anything of it. */
@@ -144,7 +144,7 @@ namespace abut
       abut_plugin_stamp stamp;
       if (place == std::string::npos || content.size() < place + sizeof(stamp))
         return "it is not a plugin of Abut: it has no stamp. The plugin is "
-               "named libabut_plugin.so or libabut_plugin.g.so";
+               "libabut_plugin.so or libabut_plugin.g.so";
       std::memcpy(&stamp, content.data() + place, sizeof(stamp));
       return compare_stamps(stamp, plugin_stamp());
     }
@@ -169,7 +169,7 @@ namespace abut
         return "it does not export the symbol " ABUT_PLUGIN_QUERY;
       plugin = query();
       if (plugin == nullptr || plugin->struct_size < sizeof(abut_plugin))
-        return "its " ABUT_PLUGIN_QUERY " gives nothing that can be used";
+        return "its " ABUT_PLUGIN_QUERY " returns an empty result";
       return compare_stamps(*plugin->stamp, plugin_stamp());
     }
 

@@ -16,17 +16,17 @@ namespace abut
       return "";
     std::string seen = " Of the points that press,";
     if (changes.lost > 0)
-      seen += " " + std::to_string(changes.lost)
-              + " came past the end of what is opposite them on the way of "
-                "the last linearisation"
-              + (changes.jumped > 0 ? " and" : "");
+      seen +=
+          " " + std::to_string(changes.lost)
+          + " left the end of the opposite surface in the last linearisation"
+          + (changes.jumped > 0 ? " and" : "");
     if (changes.jumped > 0)
       seen += " " + std::to_string(changes.jumped)
-              + " jumped between facets that are no neighbours, or of other "
-                "normals";
+              + " jumped between facets that are not neighbours or have "
+                "different normals";
     return seen
-           + ": take mortar, which follows smoothly (Method/Discretisation = "
-             "dual mortar), or round such corners and ends.";
+           + ": use Method/Discretisation = dual mortar, which follows "
+             "smoothly, or round such corners and ends.";
   }
 } // namespace abut
 

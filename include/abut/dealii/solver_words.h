@@ -35,9 +35,9 @@ namespace abut
       return "";
     return " The tangent K was not positive (d . K d <= 0) along "
            + std::to_string(n_negative) + " of " + std::to_string(n_steps)
-           + " steps d, as where a material softens or a body snaps through: "
-             "there may be no equilibrium near. Prescribe displacements "
-             "instead of forces, or use smaller load steps.";
+           + " increments d, as for softening or snap-through: there may be no "
+             "equilibrium nearby. Prescribe displacements instead of forces, "
+             "or use smaller load steps.";
   }
 
   /** The same if bodies have left what contact takes for opposite. */
@@ -48,8 +48,8 @@ namespace abut
       if (pair.stays && pair.facet > 0. && pair.slip > too_far * pair.facet)
         return " Bodies have slid on each other by "
                + three_digits(pair.slip / pair.facet)
-               + " facets, but contact has the partners of the undeformed "
-                 "ones: let points follow (Method/Sliding = large).";
+               + " facets, but contact has the partners of the reference "
+                 "configuration. Use Method/Contact geometry = current.";
     return "";
   }
 
@@ -63,13 +63,13 @@ namespace abut
                        + three_digits(after.residual)
                        + " after the shortest one tried";
     if (before.defect + after.defect != 0.)
-      text += ", together with what the law of contact is off by, "
+      text += ", including the error of the contact law, "
               + three_digits(scales.as_force(before.defect)) + " before and "
               + three_digits(scales.as_force(after.defect))
               + " after as a force";
     return text
-           + ". Check that the tangent is the derivative of the residual, "
-             "and use smaller load steps.";
+           + ". Check that the tangent is the derivative of the residual, and "
+             "use smaller load steps.";
   }
 
   /** Nodes that searches do not find. */
@@ -85,17 +85,15 @@ namespace abut
       n_same_direction += node.same_direction;
       n_same_side += node.same_side;
     }
-    Message result("Nodes keep on penetrating without a constraint after "
+    Message result("Nodes still penetrate without a constraint after "
                    + std::to_string(n_searches) + " searches, "
                    + std::to_string(missed.size()) + " of them by up to "
                    + three_digits(depth));
     result.failure = ABUT_FAILURE_NO_PARTNER;
     if (2 * n_same_side > missed.size())
-      result.text +=
-          ": a surface that touches itself has two sides only, and parts that "
-          "were put on the same one have met, as where three flanks close. "
-          "Give parts that touch each other boundary ids and pairs of their "
-          "own.";
+      result.text += ": a surface that touches itself has two sides only, and "
+                     "parts of the same side have met. Give parts that touch "
+                     "each other their own boundary ids and pairs.";
     else if (2 * n_same_direction <= missed.size())
       result.text += ": use smaller load steps, or a larger reach of the pair.";
     else
@@ -103,10 +101,10 @@ namespace abut
       result.failure = ABUT_FAILURE_WRONG_SIDE;
       result.text +=
           ". At " + std::to_string(n_same_direction)
-          + " the outward normals of the surface and of the obstacle point the "
-            "same way: its material is where the body is, or nodes have come "
-            "out of it on its far side. Turn the obstacle (Normal, the sign of "
-            "a distance, Axis or Hollow), or take the side of the body that "
+          + " the outward normals of the surface and of the obstacle point in "
+            "the same direction: its material is inside the body, or nodes "
+            "have left it on its far side. Reverse the obstacle (Normal, sign "
+            "of a distance, Axis or Hollow), or use the side of the body that "
             "faces it.";
     }
     return result;

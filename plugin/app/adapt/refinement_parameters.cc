@@ -4,6 +4,8 @@
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <algorithm>
 
@@ -44,56 +46,65 @@ namespace abut::app
   {
     namespace Patterns = dealii::Patterns;
     prm.enter_subsection("Refinement");
-    prm.declare_entry("Level", default_level, Patterns::Integer(0, 30),
-                      "Uniform refinements of the coarse mesh.");
-    prm.declare_entry("Coarsest level", default_coarsest_level,
-                      Patterns::Integer(0, 30),
-                      "Level on which nested iteration begins; at most "
-                      "`Level`.");
-    prm.declare_entry("Nested iteration", "true", Patterns::Bool(),
-                      "Solve on all levels from the coarsest on, each "
-                      "started from the one before. Off: solve on `Level` "
-                      "from displacement 0.");
-    prm.declare_entry("Coarse level tolerance", "1e-3",
-                      NumberPattern::between(0., 1.),
-                      "Linear, gap and pressure tolerance in the end on all "
-                      "meshes but the last, whose results are only a start "
-                      "(a thousandth of it for the barrier). Meshes whose "
-                      "results "
-                      "are wanted (an exact solution is given, or `All "
-                      "levels`) are solved to `Method/Final linear "
-                      "tolerance`.");
-    prm.declare_entry("Relaxation sweeps", "3", Patterns::Integer(0, 1000),
-                      "Symmetric projected Gauss-Seidel sweeps that improve "
-                      "each start of nested iteration.");
-    prm.declare_entry("Renumber", "none",
-                      Patterns::Selection("none|Cuthill-McKee"),
-                      "Order of the unknowns on each mesh: as deal.II makes "
-                      "it, or with a small bandwidth. Results do not depend "
-                      "on it.");
-    prm.declare_entry("Adaptive cycles", "0", Patterns::Integer(0, 1000),
-                      "Further meshes, refined where the error estimate is "
-                      "large.");
-    prm.declare_entry("Refine fraction", "0.6", NumberPattern::between(0., 1.),
-                      "Part of the squared error estimate whose cells are "
-                      "refined in an adaptive cycle.");
-    prm.declare_entry("Coarsen fraction", "0.02",
-                      NumberPattern::between(0., 1.),
-                      "Part of it whose cells are coarsened.");
-    prm.declare_entry("Target error", "0", NumberPattern::between(0., 1.),
-                      "Relative error of `Target quantity` at which to stop, "
-                      "for example 1e-2; 0: none. With a target the mesh is "
-                      "refined from `Coarsest level` on where the error "
-                      "estimate is large (neither `Level` nor `Adaptive "
-                      "cycles` is used), and penalty, barrier and tolerances "
-                      "are made finer only where the answer shows it. With "
-                      "load steps it is met on the first one, whose mesh the "
-                      "others keep.");
-    prm.declare_entry("Target quantity", "energy norm",
-                      Patterns::Selection("energy norm|contact force"),
-                      "What the target is a relative error of.");
-    prm.declare_entry("Most meshes", "60", Patterns::Integer(1, 1000),
-                      "Meshes after which a target is given up.");
+    parameter::declare(prm, "Level", default_level, Patterns::Integer(0, 30),
+                       parameter::basic("1", "4"),
+                       "Uniform refinements of the coarse mesh (initial global "
+                       "refinement). Each halves the size of the cells.");
+    parameter::declare(
+        prm, "Coarsest level", default_coarsest_level, Patterns::Integer(0, 30),
+        parameter::advanced("1", "1"),
+        "Level on which nested iteration starts; at most `Level`.");
+    parameter::declare(
+        prm, "Nested iteration", "true", Patterns::Bool(),
+        parameter::advanced(),
+        "Whether all levels from the coarsest on are solved, each started from "
+        "the one before. false: solve on `Level` from displacement 0.");
+    parameter::declare(
+        prm, "Coarse level tolerance", "1e-3", NumberPattern::between(0., 1.),
+        parameter::expert("1", "1e-4"),
+        "Linear, gap and pressure tolerance on all meshes but the last, whose "
+        "results are a start only (barrier: a thousandth of it). Meshes with "
+        "wanted results (exact solution given, or `Output/All levels`) use "
+        "`Method/Final linear tolerance`.");
+    parameter::declare(prm, "Relaxation sweeps", "3",
+                       Patterns::Integer(0, 1000), parameter::expert("1", "0"),
+                       "Symmetric projected Gauss-Seidel sweeps that improve "
+                       "each start of nested iteration.");
+    parameter::declare(prm, "Renumber", "none",
+                       Patterns::Selection("none|Cuthill-McKee"),
+                       parameter::expert(),
+                       "Order of the unknowns on each mesh: of deal.II, or "
+                       "with a small bandwidth. Results do not depend on it.");
+    parameter::declare(prm, "Adaptive cycles", "0", Patterns::Integer(0, 1000),
+                       parameter::basic("1", "5"),
+                       "Number of further meshes, refined where the error "
+                       "estimate is large (adaptive refinement).");
+    parameter::declare(prm, "Refine fraction", "0.6",
+                       NumberPattern::between(0., 1.),
+                       parameter::advanced("1", "0.5"),
+                       "Part of the squared error estimate whose cells are "
+                       "refined in an adaptive cycle.");
+    parameter::declare(prm, "Coarsen fraction", "0.02",
+                       NumberPattern::between(0., 1.),
+                       parameter::advanced("1", "0.05"),
+                       "Part of the squared error estimate whose cells are "
+                       "coarsened in an adaptive cycle.");
+    parameter::declare(
+        prm, "Target error", "none",
+        OrWord(NumberPattern::between(0., 1.), "none"),
+        parameter::basic("1", "1e-2"),
+        "Relative error of `Target quantity` at which refinement stops. The "
+        "mesh is then refined from `Coarsest level` on by the error estimate "
+        "(`Level` and `Adaptive cycles` are not used), and tolerances, penalty "
+        "and barrier follow the error. With load steps the first step makes "
+        "the mesh.");
+    parameter::declare(prm, "Target quantity", "energy norm",
+                       Patterns::Selection("energy norm|contact force"),
+                       parameter::advanced(), "Quantity of `Target error`.");
+    parameter::declare(prm, "Maximum meshes", "60", Patterns::Integer(1, 1000),
+                       parameter::advanced("1", "20"),
+                       "Number of meshes after which the run ends without "
+                       "reaching the target.");
     prm.leave_subsection();
   }
 
@@ -109,8 +120,8 @@ namespace abut::app
     adaptive_cycles = prm.get_integer("Adaptive cycles");
     refine_fraction = prm.get_double("Refine fraction");
     coarsen_fraction = prm.get_double("Coarsen fraction");
-    target_error = prm.get_double("Target error");
-    const unsigned int most_meshes = prm.get_integer("Most meshes");
+    target_error = parameter::number_or_zero(prm, "Target error");
+    const unsigned int most_meshes = prm.get_integer("Maximum meshes");
     target_quantity = prm.get("Target quantity") == "contact force"
                           ? TargetQuantity::contact_force
                           : TargetQuantity::energy_norm;
@@ -118,8 +129,7 @@ namespace abut::app
     coarsest_level = std::min(coarsest_level, level);
     if (target_error > 0. && target_error < least_target)
       throw InputError("Refinement/Target error",
-                       "is below 1e-10: round-off hides such errors, and no "
-                       "memory holds the meshes.");
+                       "is below 1e-10, smaller than round-off.");
     if (has_target())
     {
       level = coarsest_level;

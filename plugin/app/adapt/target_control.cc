@@ -91,8 +91,8 @@ namespace abut::app
            + " is not met after " + std::to_string(n_meshes_)
            + " meshes: the estimate is "
            + short_number(target_->errors().total(), 3)
-           + ". Allow more meshes (Refinement/Most meshes), or ask for "
-             "less (Refinement/Target error).";
+           + ". Allow more meshes (Refinement/Maximum meshes), or a larger "
+             "Refinement/Target error.";
   }
 
   void TargetControl::report(Report &report,
@@ -113,13 +113,13 @@ namespace abut::app
     }
     report.model("target error", true,
                  short_number(parameters_.target_error, 3)
-                     + " asked for; estimated: mesh "
+                     + " required; estimated: mesh "
                      + short_number(errors.discretisation, 2) + ", contact law "
                      + short_number(errors.contact, 2) + ", linear systems "
                      + short_number(errors.algebraic, 2) + "; "
                      + std::to_string(n_meshes_) + " meshes, "
                      + (n_tightened_ == 0
-                            ? std::string("law and tolerances as they were")
+                            ? std::string("law and tolerances unchanged")
                             : std::to_string(n_tightened_)
                                   + " solves with tightened law or "
                                     "tolerances"));

@@ -14,27 +14,28 @@ namespace abut::app
     {
       run,
       check,
+      new_scene,
       search,
-      chart,
-      atlas,
       tool, /**< a program in Python, see tools.h */
       parameters,
+      serve, /**< before MPI begins, see serve.h */
       version,
       help
     };
 
     Command command = Command::help;
-    std::string file;  /**< of the scene or the chart; folder of the atlas */
-    std::string topic; /**< of `abut help TOPIC` */
+    std::string file;  /**< of the scene */
+    std::string topic; /**< of `abut help TOPIC`; kind of `abut new` */
     std::vector<std::string> words;     /**< all of them */
     std::vector<std::string> overrides; /**< of `--set` */
     std::vector<std::string> offers;    /**< of `--set-if-used` */
     std::string output;                 /**< empty: output/<name of the file> */
-    std::string report; /**< page of the atlas; empty: in its output */
+    std::string kind, level; /**< of `abut parameters`; empty: all */
     bool quiet = false;
+    bool verbose = false; /**< print all figures with their keys */
     bool resume = false;  /**< go on from the latest checkpoint */
     bool explain = false; /**< say what could be left out */
-    bool plan = false;    /**< of a chart: stop before the first run */
+    bool values = false;  /**< print values of parameters */
   };
 
   /** Read the words after the program's name; throws InputError. */

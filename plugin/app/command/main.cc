@@ -3,8 +3,8 @@
  * not leave the others waiting: a failed rank enters a barrier on a
  * communicator of its own, and if not all do so within seconds, it ends them
  * all. */
-#include "app/process/loaded_program.h"
 #include "program.h"
+#include "serve.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -99,8 +99,7 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  const std::string command = argc > 1 ? argv[1] : "";
-  if (command == "chart" || command == "atlas")
-    abut::app::keep_loaded(run);
+  if (argc == 2 && std::string(argv[1]) == "serve")
+    return abut::app::serve(argv[0], run);
   return run(argc, argv);
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "program.h"
 
-#include "app/atlas/atlas.h"
-#include "app/chart/chart.h"
 #include "app/input/collective.h"
 #include "app/input/output_folder.h"
 #include "app/report/status_file.h"
+#include "app/restart/disk.h"
 #include "app/restart/restart.h"
 #include "app/restart/run_lock.h"
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/loaded_scene.h"
+#include "app/scenes/parameter_reference.h"
 #include "command_line.h"
+#include "new_scene.h"
 #include "tools.h"
 
 #include <abut/version.h>
@@ -19,6 +20,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -102,13 +104,27 @@ namespace abut::app
                                        identity, resumes);
     }
 
-    ExitCode say_stopped(const RunOptions &options, const bool quiet)
+    Verbosity verbosity(const CommandLine &line)
     {
-      if (is_root(options.communicator) && !quiet)
-        std::cout << "\n  stopped; 'abut run ... --resume' goes on from the "
-                     "checkpoint in "
-                  << options.output_folder.string() << std::endl;
-      return ExitCode::stopped;
+      return line.quiet     ? Verbosity::quiet
+             : line.verbose ? Verbosity::all
+                            : Verbosity::brief;
+    }
+
+    /** "2 csv, 1 json, 3 vtu": the files of a folder, by ending. */
+    std::string files_in(const std::filesystem::path &folder)
+    {
+      std::map<std::string, unsigned int> n_files;
+      std::error_code error;
+      for (const auto &file :
+           std::filesystem::directory_iterator(folder, error))
+        if (const std::string ending = file.path().extension().string();
+            file.is_regular_file(error) && ending.size() > 1)
+          ++n_files[ending.substr(1)];
+      std::string text;
+      for (const auto &[ending, n] : n_files)
+        text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + ending;
+      return text;
     }
 
     /** Run the scene. An error that comes when there are results already must
@@ -138,8 +154,8 @@ namespace abut::app
     void record_error(StatusFile &status, const std::exception &error,
                       const bool has_results)
     {
-      if (dynamic_cast<const InputError *>(&error) != nullptr)
-        status.end(ExitCode::bad_input, error.what(), has_results);
+      if (const auto *input = dynamic_cast<const InputError *>(&error))
+        status.end(ExitCode::bad_input, input->message(), has_results);
       else if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
         status.end(ExitCode::bad_input, no_memory, has_results);
       else
@@ -155,8 +171,14 @@ namespace abut::app
       options.restart = restart.get();
       const Outcome outcome = run_to_end(loaded, options, report);
       if (outcome == Outcome::stopped)
-        return say_stopped(options, line.quiet);
+      {
+        report.print("\n  stopped; 'abut run ... --resume' goes on from the "
+                     "checkpoint in "
+                     + options.output_folder.string());
+        return ExitCode::stopped;
+      }
       report.set("converged", outcome == Outcome::converged);
+      report.check_expected();
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
       if (restart)
@@ -164,9 +186,10 @@ namespace abut::app
       report.print_summary();
       if (line.explain)
         report.explain();
-      if (is_root(communicator) && !line.quiet)
-        std::cout << "\n  results in " << options.output_folder.string()
-                  << std::endl;
+      report.print("  results in " + options.output_folder.string() + ": "
+                   + files_in(options.output_folder));
+      if (!line.verbose)
+        report.print("  all figures: summary.json, or abut run --verbose");
       return outcome == Outcome::converged ? ExitCode::success
                                            : ExitCode::unusable_answer;
     }
@@ -206,9 +229,10 @@ namespace abut::app
                  {
                    status.begin();
                    if (is_root(communicator))
-                     loaded.write_parameters(options.output_folder);
+                     write_file(options.output_folder / "parameters.json",
+                                loaded.parameters_json());
                  });
-      Report report(communicator, line.quiet);
+      Report report(communicator, verbosity(line));
       loaded.describe(report);
       const std::string page = loaded.get("Output", "Report");
       try
@@ -278,12 +302,11 @@ namespace abut::app
                    if (is_root(options.communicator))
                      check_output_folder(options.output_folder);
                  });
-      Report report(options.communicator, line.quiet);
+      Report report(options.communicator, verbosity(line));
       loaded.describe(report);
       loaded.scene->check(options, report);
       report.print_summary();
-      if (is_root(options.communicator) && !line.quiet)
-        std::cout << "\n  " << line.file << ": no errors found" << std::endl;
+      report.print("\n  " + line.file + ": no errors found");
       return ExitCode::success;
     }
 
@@ -300,6 +323,8 @@ namespace abut::app
                    {
                      file.emplace(line.file, line.overrides, line.offers);
                      loaded.emplace(*file);
+                     if (line.values && is_root(communicator))
+                       std::cout << loaded->parameters_json() << std::flush;
                      if (line.command == Command::search)
                        require_search(*loaded);
                      loaded->parse();
@@ -313,6 +338,8 @@ namespace abut::app
       }
       try
       {
+        if (line.values)
+          return ExitCode::success;
         const RunOptions options = run_options(communicator, line, *loaded);
         return line.command == Command::check
                    ? check_scene(*loaded, options, line)
@@ -324,6 +351,21 @@ namespace abut::app
       }
     }
 
+    ExitCode new_command(MPI_Comm communicator, const CommandLine &line)
+    {
+      collective(communicator,
+                 [&]
+                 {
+                   if (!is_root(communicator))
+                     return;
+                   const std::string file =
+                       write_new_scene(line.topic, line.file).string();
+                   std::cout << file << " written; solve it: abut run " << file
+                             << std::endl;
+                 });
+      return ExitCode::success;
+    }
+
     /** For commands that start other processes. */
     void require_one_rank(MPI_Comm communicator, const CommandLine &line)
     {
@@ -331,26 +373,6 @@ namespace abut::app
         throw InputError("",
                          std::string("'abut ") + line.words.at(0)
                              + "' runs on one rank: start it without mpirun.");
-    }
-
-    ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
-    {
-      require_one_rank(communicator, line);
-      Report report(communicator, line.quiet);
-      return make_chart(line.file, line.overrides, output_folder(line),
-                        line.plan, report);
-    }
-
-    ExitCode atlas_command(MPI_Comm communicator, const CommandLine &line)
-    {
-      require_one_rank(communicator, line);
-      AtlasOptions options;
-      options.path = line.file;
-      options.output = line.output.empty() ? "output/atlas" : line.output;
-      options.report = line.report.empty() ? options.output / "failures.md"
-                                           : std::filesystem::path(line.report);
-      options.quiet = line.quiet;
-      return run_atlas(options);
     }
   } // namespace
 
@@ -365,16 +387,15 @@ namespace abut::app
     case Command::check:
     case Command::search:
       return scene_command(communicator, line);
-    case Command::chart:
-      return chart_command(communicator, line);
-    case Command::atlas:
-      return atlas_command(communicator, line);
+    case Command::new_scene:
+      return new_command(communicator, line);
     case Command::tool:
       require_one_rank(communicator, line);
       return run_tool(line.words);
     case Command::parameters:
-      write_reference(text);
-      write_chart_reference(text);
+      write_reference(text, ReferenceOptions::parse(line.kind, line.level));
+      break;
+    case Command::serve: // by main(), before MPI begins
       break;
     case Command::version:
       print_version(text);

@@ -47,6 +47,9 @@ namespace abut::app
               : std::vector<std::string>{"python3", "/usr/bin/python3"};
       ChildOptions options;
       options.log = log;
+      // Of its environment a tool learns which program has started it.
+      const std::string program = fs::read_symlink("/proc/self/exe").string();
+      setenv("ABUT_PROGRAM", program.c_str(), 1);
       for (const std::string &python : candidates)
       {
         // No compiled files, which would stay behind a package.

@@ -74,9 +74,10 @@ namespace abut::app
     if (set != nullptr)
     {
       if (set->ids.empty())
-        throw InputError(parameter, "no facet is left of the set '" + word
-                                        + "': Boundary ids gives all of them "
-                                          "other ids.");
+        throw InputError(
+            parameter,
+            "no facet is left of the set '" + word
+                + "': Boundary ids assigns other ids to all of them.");
       return set->ids;
     }
     if (are_digits(word))

@@ -44,9 +44,27 @@ namespace abut::app
           pattern.substr(begin.size(), pattern.size() - begin.size() - 1), '|');
     }
 
-    /** deal.II's description of a pattern in words. */
+    const std::string or_word = "[Or ";
+
+    /** The word of "[Or auto [Number above 0]]". */
+    std::string word_of(const std::string &pattern)
+    {
+      if (pattern.compare(0, or_word.size(), or_word) != 0)
+        return "";
+      const std::size_t end = pattern.find(' ', or_word.size());
+      return pattern.substr(or_word.size(), end - or_word.size());
+    }
+
+    /** A pattern's description in words. */
     std::string pattern_words(std::string pattern)
     {
+      const std::string word = word_of(pattern);
+      if (!word.empty())
+      {
+        const std::size_t begin = or_word.size() + word.size() + 1;
+        return pattern_words(pattern.substr(begin, pattern.size() - begin - 1))
+               + ", or " + word;
+      }
       const std::vector<std::string> choices = selection_words(pattern);
       if (!choices.empty())
       {
@@ -60,11 +78,10 @@ namespace abut::app
       if (pattern == "[Anything]")
         return "text";
       if (pattern.compare(0, 4, "[Map") == 0)
-        return "a list of `name: number`, separated by commas";
-      const std::string formula = "[Formula ";
-      if (pattern.compare(0, formula.size(), formula) == 0)
-        return pattern.substr(formula.size(),
-                              pattern.size() - formula.size() - 1);
+        return "a list of `name: number`";
+      const std::string text = "[Text ";
+      if (pattern.compare(0, text.size(), text) == 0)
+        return pattern.substr(text.size(), pattern.size() - text.size() - 1);
       const std::string number = "[Number";
       if (pattern.compare(0, number.size(), number) == 0)
         return "a number"
@@ -107,9 +124,12 @@ namespace abut::app
         {
           const std::string pattern =
               node.get<std::string>("pattern_description", "");
+          const parameter::Documentation documentation(
+              node.get<std::string>("documentation", ""));
           result.push_back({name, node.get<std::string>("value", *value),
-                            *value, node.get<std::string>("documentation", ""),
-                            pattern_words(pattern), selection_words(pattern)});
+                            *value, documentation.text, pattern_words(pattern),
+                            selection_words(pattern), word_of(pattern),
+                            documentation.note});
         }
         else if (!node.get_optional<std::string>("alias"))
           collect(node, name + "/", result);

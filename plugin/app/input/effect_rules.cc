@@ -11,15 +11,15 @@ namespace abut::app
   namespace
   {
     /** Whether @p text is @p pattern with any text for each `*`. */
-    bool fits(const char *pattern, const char *text)
+    bool fits_text(const char *pattern, const char *text)
     {
       if (*pattern == '\0')
         return *text == '\0';
       if (*pattern != '*')
-        return *pattern == *text && fits(pattern + 1, text + 1);
+        return *pattern == *text && fits_text(pattern + 1, text + 1);
       for (;; ++text)
       {
-        if (fits(pattern + 1, text))
+        if (fits_text(pattern + 1, text))
           return true;
         if (*text == '\0')
           return false;
@@ -83,7 +83,7 @@ namespace abut::app
   {
     std::vector<std::string> paths;
     for (const DeclaredParameter &parameter : parameters)
-      if (fits(pattern.c_str(), parameter.path.c_str()))
+      if (fits(pattern, parameter.path))
         paths.push_back(parameter.path);
     return paths;
   }
@@ -103,6 +103,19 @@ namespace abut::app
             [condition = std::move(condition),
              otherwise](const SceneValues &values, const std::string &)
             { return condition(values) ? "" : otherwise; }};
+  }
+
+  EffectRule never_effective(const std::string &parameters, const Weight weight,
+                             const std::string &why)
+  {
+    return {parameters, weight,
+            [why](const SceneValues &, const std::string &) { return why; },
+            true};
+  }
+
+  bool fits(const std::string &pattern, const std::string &path)
+  {
+    return fits_text(pattern.c_str(), path.c_str());
   }
 
   EffectRule without_time(const std::string &parameters, const std::string &why)

@@ -71,6 +71,9 @@ namespace abut::app
     std::function<std::string(const SceneValues &values,
                               const std::string &path)>
         without_effect;
+    /** Whether they never have one in scenes of this kind, whose reference
+     * leaves them out. */
+    bool never = false;
   };
 
   /** The section of a path. */
@@ -82,6 +85,13 @@ namespace abut::app
   effective_if(const std::string &parameters, Weight weight,
                std::function<bool(const SceneValues &values)> condition,
                const std::string &otherwise);
+
+  /** A rule of parameters without effect in any scene of a kind. */
+  EffectRule never_effective(const std::string &parameters, Weight weight,
+                             const std::string &why);
+
+  /** Whether @p path is @p pattern, in which `*` is any run of characters. */
+  bool fits(const std::string &pattern, const std::string &path);
 
   /** Rules of formulas that time does not move, those at @p parameters. */
   EffectRule without_time(const std::string &parameters,

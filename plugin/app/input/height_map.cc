@@ -7,6 +7,8 @@
 #include "parameters.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <algorithm>
 #include <cctype>
@@ -73,7 +75,7 @@ namespace abut::app
         if (c == EOF)
           fail("ends before its " + name);
         if (!std::isdigit(c))
-          fail("has something else than a whole number for its " + name);
+          fail("has no whole number for its " + name);
         std::size_t value = 0;
         for (; std::isdigit(c); c = in.get())
         {
@@ -152,23 +154,27 @@ namespace abut::app
 
   void HeightMapParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Height map", "", dealii::Patterns::Anything(),
-                      "Grey-scale image (PGM, P2 or P5, 8 or 16 bits) whose "
-                      "brightness is the height; relative names are relative "
-                      "to the scene file. Empty: none.");
-    prm.declare_entry("Height map lower corner", "0, 0",
-                      dealii::Patterns::Anything(),
-                      "x and y of the centre of the image's lower left pixel.");
-    prm.declare_entry("Height map upper corner", "1, 1",
-                      dealii::Patterns::Anything(),
-                      "x and y of the centre of the image's upper right "
-                      "pixel. Outside, the nearest pixel of the rim holds.");
-    prm.declare_entry("Height map lowest", "0",
-                      NumberPattern::between(-largest_value, largest_value),
-                      "Height of black.");
-    prm.declare_entry("Height map highest", "1",
-                      NumberPattern::between(-largest_value, largest_value),
-                      "Height of white.");
+    parameter::declare(prm, "Height map", "", TextPattern::file(),
+                       parameter::advanced("", "surface.pgm"),
+                       "Grey-scale image (PGM, P2 or P5, 8 or 16 bits) whose "
+                       "brightness is the height. A relative name is relative "
+                       "to the scene file. Empty: none.");
+    parameter::declare(prm, "Height map lower corner", "0, 0",
+                       TextPattern::number_vector(),
+                       parameter::advanced("length", "-1, -1"),
+                       "x and y of the centre of the lower left pixel.");
+    parameter::declare(prm, "Height map upper corner", "1, 1",
+                       TextPattern::number_vector(),
+                       parameter::advanced("length", "1, 1"),
+                       "x and y of the centre of the upper right pixel. Points "
+                       "outside have the height of the nearest pixel.");
+    parameter::declare(prm, "Height map lowest", "0",
+                       NumberPattern::between(-largest_value, largest_value),
+                       parameter::advanced("length", "-0.2"),
+                       "Height of black.");
+    parameter::declare(prm, "Height map highest", "1",
+                       NumberPattern::between(-largest_value, largest_value),
+                       parameter::advanced("length", "0"), "Height of white.");
   }
 
   void HeightMapParameters::parse(dealii::ParameterHandler &prm,

@@ -21,8 +21,8 @@ namespace abut::app
     if (!fs::is_directory(there, error) || access(there.c_str(), W_OK) != 0)
       throw InputError("", "cannot make the output folder '" + folder.string()
                                + "': '" + there.string()
-                               + "' is no folder that can be written to. "
-                                 "Choose another one with --output DIR.");
+                               + "' is not a writable folder. Choose another "
+                                 "one with --output DIR.");
   }
 
   void make_output_folder(const std::filesystem::path &folder)

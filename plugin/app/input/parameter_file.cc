@@ -51,13 +51,20 @@ namespace abut::app
       return place.file + ":" + std::to_string(place.line);
     }
 
-    /** The path of a parameter that had another one before. */
-    std::string present_path(const std::string &path)
+    /** Whether @p value is the number 0. */
+    bool is_zero(const std::string &value)
     {
-      static const std::map<std::string, std::string> renamed = {
-          {"Solid/Run what fails", "Solid/Solve known failures"}};
-      const auto found = renamed.find(path);
-      return found == renamed.end() ? path : found->second;
+      char *end = nullptr;
+      return !value.empty() && std::strtod(value.c_str(), &end) == 0.
+             && *end == '\0';
+    }
+
+    /** How @p assignment was given: all with the same word count together. */
+    std::string source_of(const Assignment &assignment)
+    {
+      return assignment.origin.compare(0, 2, "--") == 0
+                 ? assignment.origin.substr(0, assignment.origin.find(' '))
+                 : "file";
     }
 
     [[noreturn]] void complain(const ParameterFile::Place &place,
@@ -147,6 +154,59 @@ namespace abut::app
       override_with("--set-if-used ", argument);
     for (const std::string &argument : overrides)
       override_with(set_option, argument);
+    refuse_two_names();
+  }
+
+  void ParameterFile::assign(const std::string &path, const std::string &value,
+                             const std::string &origin)
+  {
+    const std::string now = parameter::present_path(path);
+    assignments.push_back(
+        {now, parameter::present_value(now, value), origin, path, value});
+  }
+
+  void ParameterFile::refuse_two_names() const
+  {
+    std::map<std::pair<std::string, std::string>, const Assignment *> first;
+    for (const Assignment &assignment : assignments)
+    {
+      const Assignment *&other =
+          first[{source_of(assignment), assignment.path}];
+      if (other == nullptr)
+        other = &assignment;
+      else if (other->written != assignment.written)
+        throw InputError("", assignment.origin + ": '" + assignment.written
+                                 + "' and '" + other->written + "' ("
+                                 + other->origin
+                                 + ") are names of one parameter. Keep '"
+                                 + assignment.path + "' alone.");
+    }
+  }
+
+  std::vector<std::string>
+  ParameterFile::old_words(const std::vector<DeclaredParameter> &declared) const
+  {
+    std::set<std::string> seen;
+    std::vector<std::string> lines;
+    const auto add = [&](const std::string &old, const std::string &now)
+    {
+      const std::string line = "'" + old + "' is now '" + now + "'";
+      if (seen.insert(line).second)
+        lines.push_back(line);
+    };
+    for (const Assignment &assignment : assignments)
+    {
+      if (assignment.written != assignment.path)
+        add(assignment.written, assignment.path);
+      if (assignment.written_value != assignment.value)
+        add(assignment.path + " = " + assignment.written_value,
+            assignment.value);
+      for (const DeclaredParameter &parameter : declared)
+        if (parameter.path == assignment.path && !parameter.zero_word.empty()
+            && is_zero(assignment.value))
+          add(assignment.path + " = " + assignment.value, parameter.zero_word);
+    }
+    return lines;
   }
 
   void ParameterFile::read(const std::string &name, const unsigned int depth)
@@ -205,9 +265,8 @@ namespace abut::app
       const std::size_t sign = rest.find('=');
       if (sign == std::string::npos)
         complain(place, "'set' without '=': " + line);
-      assignments.push_back(
-          {present_path(join(sections, squeezed(rest.substr(0, sign)))),
-           Utilities::trim(rest.substr(sign + 1)), text_of(place)});
+      assign(join(sections, squeezed(rest.substr(0, sign))),
+             Utilities::trim(rest.substr(sign + 1)), text_of(place));
     }
     else
       complain(place, "'" + keyword + "' is not a word of a scene file."
@@ -229,9 +288,8 @@ namespace abut::app
     const std::string name = words.empty() ? "" : words.back();
     if (!words.empty())
       words.pop_back();
-    assignments.push_back({present_path(join(words, name)),
-                           Utilities::trim(argument.substr(sign + 1)),
-                           option + "\"" + argument + "\""});
+    assign(join(words, name), Utilities::trim(argument.substr(sign + 1)),
+           option + "\"" + argument + "\"");
   }
 
   std::string ParameterFile::name() const
@@ -244,7 +302,7 @@ namespace abut::app
     if (error.parameter.empty())
       return error;
     return {"", origin(error.parameter) + ": " + error.parameter + ": "
-                    + error.what()};
+                    + error.message()};
   }
 
   std::string ParameterFile::get(const std::string &path,
@@ -271,22 +329,6 @@ namespace abut::app
     return origin(path).compare(0, set_option.size(), set_option) == 0;
   }
 
-  std::vector<Assignment>
-  ParameterFile::extract(const std::function<bool(const std::string &)> &wanted)
-  {
-    const auto rest = std::stable_partition(
-        assignments.begin(), assignments.end(),
-        [&](const Assignment &assignment) { return !wanted(assignment.path); });
-    const std::vector<Assignment> result(rest, assignments.end());
-    assignments.erase(rest, assignments.end());
-    return result;
-  }
-
-  void ParameterFile::append(const Assignment &assignment)
-  {
-    assignments.push_back(assignment);
-  }
-
   std::map<std::string, std::string> ParameterFile::values() const
   {
     std::map<std::string, std::string> result;
@@ -309,6 +351,8 @@ namespace abut::app
         throw_undeclared(assignment.path, declared);
       // The last assignment counts; the others are not looked at.
       found->value = get(assignment.path, "");
+      if (!found->zero_word.empty() && is_zero(found->value))
+        found->value = found->zero_word;
       set_value(prm, *found);
     }
     return declared;
@@ -335,15 +379,14 @@ namespace abut::app
       char *end = nullptr;
       const double value = std::strtod(word.c_str(), &end);
       if (*end != '\0' || !std::isfinite(value))
-        throw InputError(parameter,
-                         quoted_in(word, text)
-                             + " is not a finite number; formulas are not "
-                               "possible here."
-                             + misread_hint(word));
+        throw InputError(
+            parameter,
+            quoted_in(word, text)
+                + " is not a finite number; formulas are not supported here."
+                + misread_hint(word));
       if (std::abs(value) > largest_value)
-        throw InputError(parameter, "'" + word
-                                        + "' is too large: numbers end "
-                                          "at 1e100.");
+        throw InputError(parameter,
+                         "'" + word + "' is too large: the limit is 1e100.");
       numbers.push_back(value);
     }
     return numbers;

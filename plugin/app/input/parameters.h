@@ -11,10 +11,10 @@
 #include "input_error.h"
 
 #include <abut/dealii/nearest_word.h>
+#include <abut/dealii/parameter_entry.h>
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,6 +30,8 @@ namespace abut::app
     std::string documentation;
     std::string pattern;              /**< legal values in words */
     std::vector<std::string> choices; /**< words of a selection, else empty */
+    std::string zero_word; /**< in place of a number, once written 0 */
+    parameter::Note note;
   };
 
   /** All parameters declared in @p prm, in order of declaration. */
@@ -41,7 +43,9 @@ namespace abut::app
   {
     std::string path;
     std::string value;
-    std::string origin; /**< `file:line` or the option */
+    std::string origin;         /**< `file:line` or the option */
+    std::string written = path; /**< path in the file, perhaps an old name */
+    std::string written_value = value;
   };
 
   /** The assignments of a scene file and of the command line's `--set`. */
@@ -80,13 +84,6 @@ namespace abut::app
      * it names none. */
     InputError placed(const InputError &error) const;
 
-    /** Take out the assignments whose path @p wanted accepts, in order. */
-    std::vector<Assignment>
-    extract(const std::function<bool(const std::string &path)> &wanted);
-
-    /** Add an assignment, which counts more than those before it. */
-    void append(const Assignment &assignment);
-
     /** The values that count, by path. */
     std::map<std::string, std::string> values() const;
 
@@ -94,6 +91,10 @@ namespace abut::app
      * values now. Throws InputError for a parameter or section that is not
      * declared and for a value that its pattern refuses. */
     std::vector<DeclaredParameter> apply(dealii::ParameterHandler &prm) const;
+
+    /** Old names and words that were given, each with the one of today. */
+    std::vector<std::string>
+    old_words(const std::vector<DeclaredParameter> &declared) const;
 
     /** A line of a file. */
     struct Place
@@ -107,6 +108,9 @@ namespace abut::app
     void read_line(const std::string &line, const Place &place,
                    std::vector<std::string> &sections, unsigned int depth);
     void override_with(const std::string &option, const std::string &argument);
+    void assign(const std::string &path, const std::string &value,
+                const std::string &origin);
+    void refuse_two_names() const;
 
     std::string file;
     std::vector<Assignment> assignments;

@@ -64,9 +64,9 @@ namespace abut::app
       if (family == "C3D" && n == 8)
         return {CellShape::hexahedron, 8};
       if ((family == "C3D" && (n == 20 || n == 27)) || (is_plane && n == 8))
-        reason = "is a serendipity element, with nodes on its edges and none "
-                 "inside, which has no like here: write elements of degree 1, "
-                 "or tetrahedra or triangles of degree 2.";
+        reason = "is a serendipity element (no inner nodes), which is not "
+                 "supported: write elements of degree 1, or tetrahedra or "
+                 "triangles of degree 2.";
       else if (family == "C3D" && (n == 6 || n == 15))
         reason = "is a wedge: cells are tetrahedra or hexahedra.";
       else if (family == "C3D" && (n == 5 || n == 13))

@@ -296,6 +296,15 @@ namespace abut::app
            + all_names[body].describe(id);
   }
 
+  template <int dim>
+  std::string Bodies<dim>::name_of_body(const unsigned int body) const
+  {
+    for (const auto &[name, number] : body_names)
+      if (number == body)
+        return name;
+    return "body " + std::to_string(body + 1);
+  }
+
   template <int dim> std::string Bodies<dim>::names_in_words() const
   {
     std::string text;
@@ -334,7 +343,7 @@ namespace abut::app
         || body[0] != std::floor(body[0]))
       throw InputError(
           parameter,
-          "'" + text + "' does not begin with the number of a body, 1 to "
+          "'" + text + "' does not start with the number of a body, 1 to "
               + std::to_string(size()) + names_in_words() + ", and a colon.");
     return {static_cast<unsigned int>(body[0]) - 1, text.substr(colon + 1)};
   }

@@ -153,6 +153,9 @@ namespace abut::app
      * name, for a number of the triangulation. */
     std::string name(BoundaryId number) const;
 
+    /** "body 2", or its name. */
+    std::string name_of_body(unsigned int body) const;
+
     /** What the user calls a boundary number of the triangulation in its body.
      */
     BoundaryId user_id(const BoundaryId number) const

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "body_parameters.h"
 
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 namespace abut::app
 {
@@ -16,63 +17,73 @@ namespace abut::app
     prm.enter_subsection("Mesh");
     MeshParameters::declare(prm);
     prm.leave_subsection();
-    prm.declare_entry("Name", "", Patterns::Anything(),
-                      "Word for the body in the lists of surfaces of pairs and "
-                      "in `Output/Points`, beside its number. Empty: the name "
-                      "that its mesh file gives all its cells, if any (of a "
-                      "physical volume, in 2D of a physical surface, or of an "
-                      "element set).");
-    prm.declare_entry("Refinements", "0", Patterns::Integer(0, 30),
-                      "Uniform refinements of this body before those of "
-                      "`Refinement/Level`.");
+    parameter::declare(
+        prm, "Name", "", TextPattern("a name"), parameter::basic("", "block"),
+        "Name of the body, for the surfaces of pairs and `Output/Points`; its "
+        "number works as well. Empty: the name that the mesh file gives to all "
+        "cells, if there is one.");
+    parameter::declare(
+        prm, "Refinements", "0", Patterns::Integer(0, 30),
+        parameter::advanced("1", "1"),
+        "Uniform refinements of this body in addition to `Refinement/Level`.");
     std::string materials;
     for (const MaterialKind *kind : material_kinds())
       materials += std::string(" ") + kind->word + ": " + kind->help;
-    prm.declare_entry(
-        "Material", material_kinds().front()->word,
-        Patterns::Selection(
-            material_words("|", [](const MaterialKind &) { return true; })),
-        "Law of stress and strain." + materials
-            + " All bodies of a scene are of small strain or none is.");
-    prm.declare_entry(
-        "Element", "full integration",
+    parameter::declare(prm, "Material", material_kinds().front()->word,
+                       Patterns::Selection(material_words(
+                           "|", [](const MaterialKind &) { return true; })),
+                       parameter::basic(),
+                       "Law of stress and strain." + materials
+                           + " All bodies of a scene are at small strain, or "
+                             "all at finite strain.");
+    parameter::declare(
+        prm, "Element", "full integration",
         Patterns::Selection("full integration|mean dilatation"),
-        "full integration takes the strain at each point as it is, and locks "
-        "in nearly incompressible bodies with `Solid/Degree` = 1. mean "
-        "dilatation gives each cell one change of volume and one pressure: "
-        "what other programs call B-bar, F-bar, Q1/P0, hybrid or u-p elements "
-        "with constant pressure, for nu up to 0.4999 or so. Materials: "
+        parameter::advanced(),
+        "Treatment of the change of volume. full integration: at each point; "
+        "it locks in nearly incompressible bodies with `Solid/Degree = 1`. "
+        "mean dilatation: one change of volume and one pressure per cell "
+        "(B-bar, F-bar, Q1/P0), for nu up to 0.4999. Materials with mean "
+        "dilatation: "
             + material_words(", ", [](const MaterialKind &kind)
                              { return !kind.without_mean_dilatation; })
             + ".");
     for (const MaterialNumber &number : material_numbers())
-      prm.declare_entry(number.name, number.value, NumberPattern(number.range),
-                        number.help);
-    prm.declare_entry("Density", "0", NumberPattern::between(0., largest_value),
-                      "Mass per volume; its weight is density times "
-                      "`Solid/Gravity`, and its inertia that of section "
-                      "`Time`.");
-    prm.declare_entry(
-        "Support", "", FormulaPattern::vector_by_id(),
-        "Prescribed displacements by boundary id or name, `3: 0, 0; 1, "
-        "2: free, -0.1*t`: a formula in x, y, z, t for each "
-        "component, or the word free. * means all other ids. "
-        "Ids that are not named are free.");
-    prm.declare_entry("Traction", "", FormulaPattern::vector_by_id(),
-                      "Forces per area by boundary id, written like "
-                      "`Support`, without the word free.");
-    prm.declare_entry("Pressure", "", FormulaPattern::by_id(),
-                      "Pressure on the boundary by id, `1: 5*t`, positive "
-                      "into the body. Adds to `Traction`. It acts along the "
-                      "normals of the undeformed body.");
-    prm.declare_entry("Body force", "", FormulaPattern::vector(),
-                      "Force per volume: a formula for each component, "
-                      "separated by commas. Adds to the weight.");
-    prm.declare_entry("Initial displacement", "", FormulaPattern::vector(),
-                      "Where the motion begins: a formula in x, y, z for each "
-                      "component, separated by commas. Empty: undeformed.");
-    prm.declare_entry("Initial velocity", "", FormulaPattern::vector(),
-                      "Written like it. Empty: at rest.");
+      parameter::declare(
+          prm, number.name, number.value, NumberPattern(number.range),
+          parameter::basic(number.unit, number.example), number.help);
+    parameter::declare(prm, "Density", "0",
+                       NumberPattern::between(0., largest_value),
+                       parameter::basic("mass/length^3", "7.8e-9"),
+                       "Mass density. Gives weight with `Solid/Gravity` and "
+                       "inertia with `Time stepping/Scheme`.");
+    parameter::declare(
+        prm, "Prescribed displacement", "", TextPattern::vector_by_id(),
+        parameter::basic("length", "3: 0, 0; top: free, -0.1*t"),
+        "Prescribed displacement by boundary id or name: a formula in x, y, z, "
+        "t for each component, or the word free. * stands for all other ids. "
+        "Ids without an entry are free.");
+    parameter::declare(prm, "Traction", "", TextPattern::vector_by_id(),
+                       parameter::basic("force/length^2", "2: 0, -5*t"),
+                       "Force per area by boundary id or name: a formula in x, "
+                       "y, z, t for each component.");
+    parameter::declare(
+        prm, "Pressure", "", TextPattern::formula_by_id(),
+        parameter::basic("force/length^2", "1: 5*t"),
+        "Pressure by boundary id or name, positive into the body, along the "
+        "normals of the reference configuration. Is added to `Traction`.");
+    parameter::declare(prm, "Body force", "", TextPattern::vector(),
+                       parameter::advanced("force/length^3", "0, -1e-3*x"),
+                       "Force per volume: a formula in x, y, z, t for each "
+                       "component. Is added to the weight.");
+    parameter::declare(prm, "Initial displacement", "", TextPattern::vector(),
+                       parameter::advanced("length", "0, 0.1"),
+                       "Displacement at the start of a motion: a formula in x, "
+                       "y, z for each component. Empty: 0.");
+    parameter::declare(prm, "Initial velocity", "", TextPattern::vector(),
+                       parameter::advanced("length/time", "0, -2"),
+                       "Velocity at the start of a motion: a formula in x, y, "
+                       "z for each component. Empty: 0.");
     prm.leave_subsection();
   }
 
@@ -97,7 +108,7 @@ namespace abut::app
     for (const MaterialNumber &number : material->numbers)
       numbers.push_back(prm.get_double(number.name));
     density = prm.get_double("Density");
-    support = prm.get("Support");
+    support = prm.get("Prescribed displacement");
     traction = prm.get("Traction");
     pressure = prm.get("Pressure");
     body_force = prm.get("Body force");

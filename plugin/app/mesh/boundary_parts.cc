@@ -25,6 +25,24 @@ namespace abut::app
                      - face->vertex(last == 3 ? 1 : 0);
       return 0.5 * std::sqrt(std::max(0., a * a * (b * b) - a * b * (a * b)));
     }
+
+    /** The outward normal times the measure, of a plane face. */
+    template <int dim, typename Face>
+    dealii::Tensor<1, dim> area_vector(const Face &face,
+                                       const dealii::Point<dim> &inside)
+    {
+      dealii::Tensor<1, dim> result;
+      const unsigned int last = face->n_vertices() - 1;
+      const auto a = face->vertex(last) - face->vertex(0);
+      if constexpr (dim == 2)
+        result = dealii::cross_product_2d(a);
+      else
+        result = 0.5
+                 * dealii::cross_product_3d(
+                     a, face->vertex(last == 3 ? 2 : 1)
+                            - face->vertex(last == 3 ? 1 : 0));
+      return result * (face->center() - inside) < 0. ? -result : result;
+    }
   } // namespace
 
   template <int dim>
@@ -41,6 +59,7 @@ namespace abut::app
       std::fill(ends, ends + 2 * dim, -std::numeric_limits<double>::infinity());
       unsigned int n_faces = 0;
       double measure = 0.;
+      dealii::Tensor<1, dim> normal;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
         {
@@ -50,6 +69,7 @@ namespace abut::app
             continue;
           ++n_faces;
           measure += measure_of(face);
+          normal += area_vector<dim>(face, cell->center());
           for (const unsigned int v : face->vertex_indices())
             for (unsigned int d = 0; d < dim; ++d)
             {
@@ -61,7 +81,9 @@ namespace abut::app
                              MPI::sum(n_faces, communicator),
                              MPI::sum(measure, communicator),
                              {},
+                             {},
                              {}};
+      part.normal = MPI::sum(normal, communicator) / part.measure;
       for (unsigned int d = 0; d < dim; ++d)
       {
         part.largest[d] = MPI::max(ends[d], communicator);
@@ -89,7 +111,16 @@ namespace abut::app
       if (!is_flat)
         text += " to " + short_number(part.largest[d]);
     }
-    return text;
+    constexpr double round_off = 1e-12;
+    const double length = part.normal.norm();
+    text += length < 1. - round_off ? ", mean normal (" : ", normal (";
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double x = part.normal[d];
+      text += (d > 0 ? ", " : "")
+              + short_number(std::abs(x) < round_off ? 0. : x, 3);
+    }
+    return text + ")";
   }
 
   template std::vector<BoundaryPart<2>>

@@ -18,6 +18,9 @@ namespace abut::app
     unsigned int n_faces;
     double measure; ///< area, in 2D length; of straight faces
     dealii::Point<dim> least, largest; ///< corners of the box around them
+    /** Mean of the outward unit normals: its length is 1 where all are the
+     * same. */
+    dealii::Tensor<1, dim> normal;
   };
 
   /** The boundary of a mesh, by id. Collective. */
@@ -26,7 +29,7 @@ namespace abut::app
   boundary_parts(const dealii::Triangulation<dim> &triangulation,
                  MPI_Comm communicator);
 
-  /** "12 faces, length 1, x from 0 to 1, y = 2". */
+  /** "12 faces, length 1, x from 0 to 1, y = 2, normal (0, 1)". */
   template <int dim> std::string in_words(const BoundaryPart<dim> &part);
 } // namespace abut::app
 

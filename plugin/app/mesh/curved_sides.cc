@@ -151,7 +151,7 @@ namespace abut::app
                   << " on which most nodes with boundary id " << id
                   << " are. Correct the "
                   << (surface.kind == "cylinder" ? "axis" : "centre")
-                  << ", or give sides of other shape an id of their own.";
+                  << ", or give sides of another shape their own id.";
           throw InputError(parameter, message.str());
         }
     }

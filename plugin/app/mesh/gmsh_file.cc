@@ -83,10 +83,9 @@ namespace abut::app
           const std::string section = lines.text();
           if (section[0] != '$' || section.compare(0, 4, "$End") == 0)
             lines.complain("'" + section
-                           + "' stands where a section such as $Nodes must "
-                             "begin.");
+                           + "' is not a section such as $Nodes.");
           if (format == 0 && section != "$MeshFormat" && section != "$Comments")
-            lines.complain("'" + section + "' stands before $MeshFormat.");
+            lines.complain("'" + section + "' is before $MeshFormat.");
           if (section == "$MeshFormat")
             read_format();
           else if (section == "$PhysicalNames")
@@ -98,7 +97,7 @@ namespace abut::app
           else if (section == "$Elements")
             read_elements();
           else if (section == "$PartitionedEntities")
-            lines.complain("a mesh in partitions begins: write it as one.");
+            lines.complain("the mesh is partitioned: write it as one.");
           else
             while (advance(section) && lines.text() != end_of(section))
               ;
@@ -106,7 +105,7 @@ namespace abut::app
           has_elements = has_elements || section == "$Elements";
           if (lines.text() != end_of(section))
             lines.complain("'" + lines.text() + "' stands where " + section
-                           + " must end: it has more lines than it announces.");
+                           + " has more lines than it announces.");
         }
         if (!has_nodes || !has_elements)
           throw MeshFileError(std::string("it ends without ")
@@ -221,7 +220,7 @@ namespace abut::app
             const auto n_groups =
                 static_cast<std::size_t>(lines.whole(words[place]));
             if (words.size() - place - 1 < n_groups)
-              lines.complain("an entity has less groups than it announces.");
+              lines.complain("an entity has fewer groups than it announces.");
             auto &list = groups[{std::int64_t(dim), lines.whole(words[0])}];
             for (std::size_t g = 0; g < n_groups; ++g)
               list.push_back(
@@ -317,8 +316,7 @@ namespace abut::app
           const auto n_tags = static_cast<std::size_t>(words[2]);
           if (words[2] < 0 || words.size() < 3 + n_tags)
             lines.complain("the element " + std::to_string(words[0])
-                           + " has "
-                             "less numbers than it announces.");
+                           + " has fewer numbers than it announces.");
           std::vector<std::size_t> into;
           if (n_tags > 0 && words[3] != 0)
             into.push_back(set_of(dim_of(words[1]), words[3]));

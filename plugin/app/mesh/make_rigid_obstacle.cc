@@ -122,8 +122,8 @@ namespace abut::app
       }
       shape.radius =
           numbers.number("Radius", 0, infinity, "a positive number.");
-      shape.length =
-          numbers.number("Length", 0, infinity, "a positive number or 0.", 0);
+      shape.length = numbers.number("Length", 0, infinity,
+                                    "a positive number, or infinite.", 0);
       shape.angle =
           degree * numbers.number("Angle", 0, 90, "a number between 0 and 90.");
       return shape;
@@ -223,8 +223,7 @@ namespace abut::app
               gradient_name,
               "Gradient is (" + given.str() + ") at (" + place.str()
                   + "), where Expression changes by (" + found.str()
-                  + "). Correct it, or leave it out: differences "
-                    "take its place.");
+                  + "). Correct it, or leave it out for finite differences.");
         }
       }
 
@@ -262,7 +261,7 @@ namespace abut::app
                                      + "' depends on "
                                      + std::string(names[height.axis])
                                      + ", the coordinate along the axis: a "
-                                       "height is given over the others.");
+                                       "height is a function of the others.");
       if (parameters.hollow)
         height.material_above = !height.material_above;
       height.along_axis = parameters.along_axis;
@@ -291,7 +290,7 @@ namespace abut::app
       how.limit =
           Numbers(parameters)
               .number("Limit", 0, std::numeric_limits<double>::infinity(),
-                      "a positive number or 0.", 0);
+                      "a positive number, or infinite.", 0);
       try
       {
         return std::make_shared<RigidObstacle<dim>>(data, how);
@@ -299,7 +298,7 @@ namespace abut::app
       catch (const dealii::ExceptionBase &error)
       {
         throw InputError(arrays.parameter,
-                         arrays.origin + " is no surface of an obstacle: "
+                         arrays.origin + " is not a surface of an obstacle: "
                              + dealii_message(error)
                              + (parameters.open ? ""
                                                 : " (`Open surface = true` "
@@ -351,8 +350,8 @@ namespace abut::app
               != expression->value(elsewhere, c))
             throw InputError(parameters.parameter(name),
                              "'" + text
-                                 + "' depends on the place; a rigid motion "
-                                   "is a formula in t only.");
+                                 + "' depends on x, y or z; a rigid motion is "
+                                   "a formula in t only.");
       }
 
       bool is_present() const
@@ -408,8 +407,7 @@ namespace abut::app
               parameters.parameter(
                   moved.norm() > first.translation.norm() ? "Motion" : "Move"),
               "at time " + short_number(time)
-                  + " it takes the obstacle further away than "
-                    "1e40.");
+                  + " it moves the obstacle farther than 1e40.");
         return {motion.rotation * first.rotation, place};
       }
 

@@ -7,13 +7,15 @@
 #include "app/input/collective.h"
 #include "app/input/dealii_message.h"
 #include "app/input/expression.h"
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
 #include "app/input/parameters.h"
 #include "generator_arguments.h"
 #include "mesh_checks.h"
 #include "mesh_file.h"
+
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
@@ -160,44 +162,55 @@ namespace abut::app
   void MeshParameters::declare(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
-    prm.declare_entry("Generator", "hyper_cube", Anything(),
-                      "Name of a function of deal.II's namespace "
-                      "GridGenerator that makes the coarse mesh.");
-    prm.declare_entry("Arguments", "-1 : 1 : false", Anything(),
-                      "All its arguments (optional ones too), separated by "
-                      "colons; points and lists by commas. For hyper_cube: "
-                      "left : right : colorize.");
-    prm.declare_entry("File", "", Anything(),
-                      "Mesh file (msh of gmsh, inp of Abaqus or CalculiX, inp "
-                      "or ucd of UCD, vtk, vtu, unv, xda), read instead of "
-                      "generating a mesh; relative names are relative to the "
-                      "scene file. Names of its surfaces and sets may stand "
-                      "for boundary ids.");
-    prm.declare_entry("Part", "", Anything(),
-                      "Name of the physical volume (in 2D physical surface), "
-                      "element set or part of the file whose cells alone are "
-                      "the mesh. Empty: all cells.");
-    prm.declare_entry("Scale", "1", Anything(),
-                      "Factor, or one per direction, applied first.");
-    prm.declare_entry("Rotate", "", Anything(),
-                      "Angle in degrees about the origin (2D), or three "
-                      "angles about x, then y, then z (3D), applied second.");
-    prm.declare_entry("Move", "", Anything(), "Shift, applied last.");
-    prm.declare_entry("Boundary ids", "", FormulaPattern::by_id(),
-                      "Boundary ids by condition on the centre of a face of "
-                      "the coarse mesh: 'id: condition' separated by ';', "
-                      "for example '1: y > 0.99; 2: abs(x) < 1e-6'. A later "
-                      "entry wins.");
-    prm.declare_entry("Curved sides", "", Anything(),
-                      "Surfaces that refinement follows, by boundary id; "
-                      "without, it keeps the straight facets of a mesh file. "
-                      "In 2D 'ids: circle: centre', in 3D 'ids: sphere: "
-                      "centre' or 'ids: cylinder: point of the axis: "
-                      "direction', separated by ';', for example '3: circle: "
-                      "0, 0; 4: circle: 2, 1'. The nodes with an id tell its "
-                      "radius and must be on the surface. 'ids: flat' says "
-                      "that the facets are meant as they are. In the "
-                      "coordinates of the mesh where it has been moved to.");
+    parameter::declare(
+        prm, "Generator", "hyper_cube", TextPattern("a word"),
+        parameter::basic("", "hyper_rectangle"),
+        "Function of deal.II's namespace GridGenerator that makes the coarse "
+        "mesh. Without effect where `File` is given.");
+    parameter::declare(
+        prm, "Arguments", "-1 : 1 : false", TextPattern("a list of arguments"),
+        parameter::basic("length", "0, 0 : 2, 1 : true"),
+        "All arguments of the function `Generator`, optional ones included, "
+        "separated by colons; points and lists by commas. For hyper_cube: left "
+        ": right : colorize. With colorize = true the sides have boundary ids "
+        "0, 1, 2, ...");
+    parameter::declare(
+        prm, "File", "", TextPattern::file(), parameter::basic("", "block.msh"),
+        "Mesh file, read instead of generating a mesh: msh (gmsh), inp "
+        "(Abaqus, CalculiX or UCD), ucd, vtk, vtu, unv, xda. A relative name "
+        "is relative to the scene file. Names of its surfaces and sets may "
+        "stand for boundary ids.");
+    parameter::declare(
+        prm, "Part", "", TextPattern("a name"),
+        parameter::advanced("", "BLOCK"),
+        "Cells of the file that make the mesh: name of a physical volume (2D: "
+        "physical surface), an element set or a part. Empty: all cells.");
+    parameter::declare(prm, "Scale", "1", TextPattern::numbers(),
+                       parameter::advanced("1", "0.001"),
+                       "Factor of the coordinates, or one factor per "
+                       "direction. Applied first.");
+    parameter::declare(
+        prm, "Rotate", "", TextPattern::numbers(),
+        parameter::advanced("degrees", "90"),
+        "Rotation about the origin: one angle in 2D, in 3D three angles about "
+        "x, then y, then z. Applied after `Scale`.");
+    parameter::declare(prm, "Move", "", TextPattern::number_vector(),
+                       parameter::basic("length", "0, 1.5"),
+                       "Translation, applied last.");
+    parameter::declare(prm, "Boundary ids", "", TextPattern::formula_by_id(),
+                       parameter::advanced("", "1: y > 0.99; 2: abs(x) < 1e-6"),
+                       "Boundary ids set by conditions on the centre of a face "
+                       "of the coarse mesh: `id: condition`, separated by "
+                       "semicolons. The last condition that is true counts.");
+    parameter::declare(
+        prm, "Curved sides", "", TextPattern("a list of shapes by boundary id"),
+        parameter::advanced("", "3: circle: 0, 0; 4: circle: 2, 1"),
+        "Shapes that refinement follows; other sides of a mesh file keep "
+        "straight facets. `ids: circle: centre` in 2D, `ids: sphere: centre` "
+        "or `ids: cylinder: point of the axis: direction` in 3D, `ids: flat` "
+        "for facets that are meant as they are. The radius follows from the "
+        "nodes, which must be on the shape. Coordinates are those after "
+        "`Scale`, `Rotate` and `Move`.");
   }
 
   void MeshParameters::parse(dealii::ParameterHandler &prm,

@@ -56,10 +56,10 @@ namespace abut::app
             << cell->center() << "), "
             << (is_good ? "has corners " + short_number(shortest)
                               + " apart and a diameter of " + short_number(size)
-                              + ": digits do not suffice for both."
+                              + ": round-off does not allow both."
                 : size > 0. && size < few_digits * distance
-                    ? "is so far from the origin, beside its size, that its "
-                      "corners have too few digits: move the mesh nearer."
+                    ? "is too far from the origin relative to its size: "
+                      "round-off. Move the mesh nearer."
                     : "is folded or concave, or has no volume.");
       throw InputError(parameter, where.str());
     }
@@ -112,8 +112,8 @@ namespace abut::app
       throw InputError(parameters.section
                            + (parameters.move.empty() ? "/Arguments" : "/Move"),
                        "the body reaches to x = " + short_number(least)
-                           + ", beyond the axis of revolution: with "
-                             "Solid/Plane = axisymmetric, x is the radius.");
+                           + ", a negative radius: with Solid/Plane = "
+                             "axisymmetric, x is the radius.");
   }
 
   template void check_cells<2>(const std::string &,

@@ -113,8 +113,8 @@ namespace abut::app
                + (dim == 2 ? "quadrilaterals or triangles."
                            : "hexahedra or tetrahedra.");
       if (contains(message, "negative"))
-        return "some of its cells are folded, or have their corners in an "
-               "order opposite to that of others."
+        return "some of its cells are folded, or have their corners in the "
+               "opposite order of other cells."
                + large_number_hint(path);
       if (contains(message, "some condition which the author"))
         return "its cells do not make a mesh: some have no size, or overlap."
@@ -122,7 +122,7 @@ namespace abut::app
       // deal.II's words about it are a page of possible reasons.
       if (dynamic_cast<const dealii::StandardExceptions::ExcIO *>(&error)
           != nullptr)
-        return "it ends too early, or is not what its ending says.";
+        return "it ends too early, or has another format than its ending.";
       return message;
     }
 
@@ -181,11 +181,10 @@ namespace abut::app
       }
       catch (const std::exception &)
       {
-        throw InputError(parameter, "the mesh file '" + path.string()
-                                        + "' is of no known kind; by its "
-                                          "ending it must be one of msh "
-                                          "(gmsh), inp, ucd, vtk, vtu, unv, "
-                                          "xda.");
+        throw InputError(parameter,
+                         "the mesh file '" + path.string()
+                             + "' has an unknown ending; use msh (gmsh), inp, "
+                               "ucd, vtk, vtu, unv or xda.");
       }
     }
 
@@ -341,8 +340,7 @@ namespace abut::app
       return "";
     return " Its largest number is " + largest + ", in line "
            + std::to_string(where)
-           + ": such a coordinate leaves too few digits for the size of cells, "
-             "or is a mistake.";
+           + ": too large relative to the size of cells, or a mistake.";
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \

@@ -166,7 +166,7 @@ namespace abut::app
             continue;
           if (info.dim > dim)
             complain(words_of(element) + " is one of " + info.plural
-                     + ", which are of 3 dimensions: set Dimension = 3.");
+                     + ", which are three-dimensional: set Dimension = 3.");
           if (info.dim < dim)
             continue;
           first = first != nullptr ? first : &element;
@@ -320,7 +320,7 @@ namespace abut::app
                      + " in the middle of the edge from node "
                      + std::to_string(element.nodes[a]) + " to "
                      + std::to_string(element.nodes[b]) + "; it is "
-                     + short_number(away) + " away from there, the edge "
+                     + short_number(away) + " away from it, the edge "
                      + short_number(length) + " long.");
           bow = std::max(bow, away / length);
           middles.push_back(node.place);
@@ -329,8 +329,7 @@ namespace abut::app
         if (info.n_corners == info.dim + 1
             && !(least_quadratic_jacobian(element.shape, corners, middles)
                  > 0.))
-          complain(words_of(element)
-                   + " is turned inside out by its middle nodes.");
+          complain(words_of(element) + " is inverted by its middle nodes.");
         if (info.n_corners != info.dim + 1)
           bow = std::max(bow, bow_inside(element, corners));
         is_curved = is_curved || bow > straight;

@@ -467,12 +467,12 @@ namespace abut::app
                                  + words_of(element_of_cell(b->cell));
         if (boundary.size() == faces.size())
           throw MeshFileError("its cells share no nodes; " + pair
-                              + ", for example, have nodes of their own at the "
-                                "same places. Merge them.");
+                              + ", for example, have separate nodes at the "
+                                "same positions. Merge them.");
         record.warnings.push_back(
             std::to_string(n_found)
             + (n_found == 1 ? " facet lies" : " facets lie")
-            + " on another with nodes of its own, such as between " + pair
+            + " on another with separate nodes, such as between " + pair
             + ": the mesh is not connected there. Merge the nodes, or give the "
               "sides of a slit boundary ids.");
       }

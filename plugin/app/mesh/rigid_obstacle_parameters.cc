@@ -2,11 +2,12 @@
 #include "rigid_obstacle_parameters.h"
 
 #include "app/input/expression.h"
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 #include <abut/obstacle.h>
 
 #include <algorithm>
@@ -34,10 +35,25 @@ namespace abut::app
     /** A parameter, and the kinds that it has a meaning for (empty: all). */
     struct Entry
     {
-      const char *name;
-      const char *default_value;
+      /** Patterns are copied. */
+      Entry(const char *name, const char *default_value,
+            const std::vector<std::string> &kinds,
+            const Patterns::PatternBase &pattern, const parameter::Note &note,
+            const char *text)
+          : name(name),
+            default_value(default_value),
+            kinds(kinds),
+            pattern(pattern.clone()),
+            note(note),
+            text(text)
+      {
+      }
+
+      std::string name, default_value;
       std::vector<std::string> kinds;
-      const char *documentation;
+      std::shared_ptr<Patterns::PatternBase> pattern;
+      parameter::Note note;
+      std::string text;
     };
 
     const std::vector<Entry> &entries()
@@ -46,101 +62,129 @@ namespace abut::app
           {"Point",
            "",
            {"plane", "cone"},
-           "plane: a point of it; cone: its tip. Empty: the origin."},
+           TextPattern::number_vector(),
+           parameter::basic("length", "0, -1"),
+           "Point of a plane, or tip of a cone. Empty: the origin."},
           {"Normal",
            "",
            {"plane"},
-           "Normal out of the material, of any length. Empty: along the last "
-           "coordinate axis."},
+           TextPattern::number_vector(),
+           parameter::basic("1", "0, 1"),
+           "Normal of a plane, out of the material, of any length. Empty: "
+           "along the last coordinate axis."},
           {"Centre",
            "",
            {"sphere", "cylinder", "box"},
-           "Centre of a sphere or box, middle of a cylinder. Empty: the "
-           "origin."},
-          {"Radius", "1", {"sphere", "cylinder"}, "Radius, positive."},
+           TextPattern::number_vector(),
+           parameter::basic("length", "0, 8"),
+           "Centre of a sphere, cylinder or box. Empty: the origin."},
+          {"Radius",
+           "1",
+           {"sphere", "cylinder"},
+           TextPattern("a number above 0"),
+           parameter::basic("length", "8"),
+           "Radius of a sphere or cylinder."},
           {"Axis",
            "",
            {"cylinder", "cone", "height"},
-           "cylinder: direction of its axis; cone (2D: wedge): from the tip "
-           "into the material; height: along a coordinate axis, out of the "
-           "material, such as `0, 0, -1` for a die above the body. Of any "
-           "length. Empty: the last coordinate axis."},
+           TextPattern::number_vector(),
+           parameter::basic("1", "0, 0, -1"),
+           "Direction, of any length. Cylinder: its axis. Cone or wedge: from "
+           "the tip into the material. Height: a coordinate axis, out of the "
+           "material. Empty: the last coordinate axis."},
           {"Length",
-           "0",
+           "infinite",
            {"cylinder", "cone"},
-           "Length along the axis; 0: without end."},
-          {"Size", "1", {"box"}, "Length of the edges, or one per direction."},
+           OrWord(TextPattern("a number above 0"), "infinite"),
+           parameter::advanced("length", "20"),
+           "Length of a cylinder or cone along its axis."},
+          {"Size",
+           "1",
+           {"box"},
+           TextPattern::numbers(),
+           parameter::advanced("length", "2, 1"),
+           "Length of the edges of a box, or one length per direction."},
           {"Angle",
            "45",
            {"cone"},
-           "Degrees between axis and side, between 0 and 90."},
+           TextPattern("a number between 0 and 90"),
+           parameter::advanced("degrees", "30"),
+           "Angle between axis and side of a cone or wedge."},
           {"Expression",
            "",
            {"height", "distance"},
-           "A formula in x, y, z, t. height: the coordinate of the surface "
-           "along `Axis`, from the others. distance: zero on the surface, "
-           "positive outside the material; a signed distance, or any other "
-           "function, which is divided by the length of its gradient and so "
-           "becomes one near the surface."},
+           TextPattern::formula(),
+           parameter::advanced("length", "0.1*x^2 - t"),
+           "Formula in x, y, z, t. Kind height: coordinate of the surface "
+           "along `Axis`. Kind distance: zero on the surface and positive "
+           "outside the material; it is divided by the length of its "
+           "gradient."},
           {"Gradient",
            "",
            {"height", "distance"},
-           "Formulas of the derivatives of `Expression` along x, y, z, "
-           "separated by commas. Empty: by differences."},
+           TextPattern::vector(),
+           parameter::expert("1", "0.2*x, 0"),
+           "Derivatives of `Expression` along x, y, z. Empty: by finite "
+           "differences."},
           {"Limit",
-           "0",
+           "infinite",
            {"surface"},
-           "Distance up to which the nearest facet is looked for; points "
-           "farther away count as outside. 0: no limit."},
+           OrWord(TextPattern("a number above 0"), "infinite"),
+           parameter::expert("length", "0.5"),
+           "Distance up to which the nearest facet is looked for. Points "
+           "farther away count as outside of the obstacle."},
           {"Motion",
            "",
            {},
-           "Displacement of the obstacle as formulas in t, one per direction, "
-           "separated by commas: `0, 0, -0.1*t`. Empty: none."},
+           TextPattern::vector(),
+           parameter::basic("length", "0, -0.1*t"),
+           "Displacement of the obstacle: a formula in t for each direction. "
+           "Empty: 0."},
           {"Free directions",
            "",
            {},
-           "Directions in which the obstacle is a rigid body that forces move, "
-           "such as `z` or `x, y`: it goes where `Force`, its weight, contact "
-           "and, in time, the inertia of `Mass` are in balance, by "
-           "translations. In the others it follows `Motion`, which must be 0 "
-           "in these. Empty: none."},
+           TextPattern("a list of directions"),
+           parameter::advanced("", "y"),
+           "Directions in which the obstacle is a rigid body driven by forces: "
+           "`Force`, weight, contact and, in dynamics, inertia of `Mass`. It "
+           "does not rotate. `Motion` must be 0 in these directions. Empty: "
+           "none."},
           {"Force",
            "",
            {},
-           "Force on the obstacle as formulas in t, one per direction; those "
-           "of `Free directions` count. Around an axis that on the whole "
-           "turn, of a part of what is symmetric that on the part. Empty: "
-           "none."},
+           TextPattern::vector(),
+           parameter::advanced("force", "0, -5*t"),
+           "Force on the obstacle in its `Free directions`: a formula in t for "
+           "each direction. Axisymmetric: total force of the full circle. With "
+           "symmetry planes: force on the modelled part. Empty: 0."},
           {"Initial velocity",
            "",
            {},
-           "Velocity at the start of a motion along `Free directions`, one "
-           "number per direction. Empty: 0."},
+           TextPattern::number_vector(),
+           parameter::advanced("length/time", "0, -1"),
+           "Velocity at the start of a motion, in the `Free directions`. "
+           "Empty: 0."},
           {"Rotation angle",
            "",
            {},
-           "Degrees by which the obstacle is turned before `Motion`, as a "
-           "formula in t. Empty: none."},
+           TextPattern::formula(),
+           parameter::advanced("degrees", "90*t"),
+           "Rotation of the obstacle about `Rotation centre`, applied before "
+           "`Motion`: a formula in t. Empty: 0."},
           {"Rotation centre",
            "",
            {},
-           "Point about which `Rotation angle` turns. Empty: the origin."},
+           TextPattern::number_vector(),
+           parameter::advanced("length", "0, 8"),
+           "Centre of `Rotation angle`. Empty: the origin."},
           {"Rotation axis",
            "0, 0, 1",
            {},
-           "Direction about which `Rotation angle` turns in 3D."}};
+           TextPattern::number_vector(),
+           parameter::advanced("1", "0, 1, 0"),
+           "Axis of `Rotation angle` in 3D, of any length."},
+      };
       return all;
-    }
-
-    std::unique_ptr<Patterns::PatternBase>
-    entry_pattern(const std::string &name)
-    {
-      if (name == "Expression" || name == "Rotation angle")
-        return FormulaPattern::one().clone();
-      if (name == "Gradient" || name == "Motion" || name == "Force")
-        return FormulaPattern::vector().clone();
-      return Patterns::Anything().clone();
     }
 
     /** The directions of a list of names; throws InputError. */
@@ -152,9 +196,9 @@ namespace abut::app
       {
         const std::size_t d = std::string("xyz").find(word);
         if (word.size() != 1 || d == std::string::npos)
-          throw InputError(parameter, "'" + word
-                                          + "' is none of the directions x, "
-                                            "y, z.");
+          throw InputError(parameter,
+                           "'" + word
+                               + "' is not one of the directions x, y, z.");
         directions.insert(static_cast<unsigned int>(d));
       }
       return {directions.begin(), directions.end()};
@@ -186,7 +230,7 @@ namespace abut::app
         for (const std::string &kind : used_by)
           words += (words.empty() ? "" : ", ") + kind;
         throw InputError(parameters.parameter(name),
-                         "has no meaning for an obstacle of kind '"
+                         "has no effect for an obstacle of kind '"
                              + parameters.kind + "', only for: " + words + ".");
       };
       for (const Entry &entry : entries())
@@ -208,38 +252,47 @@ namespace abut::app
 
   void RigidObstacleParameters::declare(ParameterHandler &prm)
   {
-    prm.declare_entry("Kind", "plane", Patterns::Selection(kind_names()),
-                      "plane (2D: half plane), sphere (disc), cylinder (3D), "
-                      "box (rectangle), cone (wedge), height over the plane "
-                      "orthogonal to an axis, signed distance as a formula, "
-                      "or surface: the boundary of a mesh or the triangles of "
-                      "a file, described by the parameters from Generator to "
-                      "Map.");
-    prm.declare_entry("Hollow", "false", Patterns::Bool(),
-                      "The material is outside of the shape.");
+    parameter::declare(
+        prm, "Kind", "plane", Patterns::Selection(kind_names()),
+        parameter::basic(),
+        "Shape of the obstacle. plane (2D: half plane), sphere (disc), "
+        "cylinder (3D), box (rectangle), cone (wedge); height: a formula over "
+        "the plane orthogonal to `Axis`; distance: a signed distance as a "
+        "formula; surface: the boundary of a mesh or triangles of a file, by "
+        "the parameters from Generator to Map.");
+    parameter::declare(prm, "Hollow", "false", Patterns::Bool(),
+                       parameter::advanced(),
+                       "Whether the material is outside of the shape.");
     for (const Entry &entry : entries())
-      prm.declare_entry(entry.name, entry.default_value,
-                        *entry_pattern(entry.name), entry.documentation);
-    prm.declare_entry("Mass", "0", NumberPattern::between(0., largest_value),
-                      "Mass of the obstacle: it has the weight of "
-                      "`Solid/Gravity`, and in time inertia along `Free "
-                      "directions`. 0: in time, too, forces on it are in "
-                      "equilibrium.");
-    prm.declare_entry("Gap along", "axis", Patterns::Selection("axis|normal"),
-                      "height: whether the gap is measured along the axis, "
-                      "and the contact force acts along it, or normal to the "
-                      "surface. Normal in any case where points move "
-                      "(`Method/Sliding = large`, `auto` at large strain).");
-    prm.declare_entry("Open surface", "false", Patterns::Bool(),
-                      "surface: it may have borders, like a sheet with the "
-                      "material behind it.");
+      parameter::declare(prm, entry.name, entry.default_value, *entry.pattern,
+                         entry.note, entry.text);
+    parameter::declare(
+        prm, "Mass", "0", NumberPattern::between(0., largest_value),
+        parameter::advanced("mass", "2.5"),
+        "Mass of an obstacle with `Free directions`. Gives weight with "
+        "`Solid/Gravity` and inertia with `Time stepping/Scheme`. 0: forces on "
+        "the obstacle are in equilibrium at all times.");
+    parameter::declare(prm, "Gap along", "axis",
+                       Patterns::Selection("axis|normal"),
+                       parameter::advanced(),
+                       "Kind height: direction of gap and contact force, along "
+                       "the axis or normal to the surface. Always normal where "
+                       "contact points follow the deformation (`Method/Contact "
+                       "geometry = current`, or auto at finite strain).");
+    parameter::declare(prm, "Open surface", "false", Patterns::Bool(),
+                       parameter::expert(),
+                       "Kind surface: whether the surface may have borders, "
+                       "like a sheet with the material behind it.");
     SurfaceParameters::declare(prm);
-    prm.declare_entry("Rotate", "", Patterns::Anything(),
-                      "Angle in degrees about the origin (2D), or three "
-                      "angles about x, then y, then z (3D), applied after "
-                      "Scale, before any motion.");
-    prm.declare_entry("Move", "", Patterns::Anything(),
-                      "Shift, applied after Rotate, before any motion.");
+    parameter::declare(
+        prm, "Rotate", "", TextPattern::numbers(),
+        parameter::advanced("degrees", "90"),
+        "Rotation about the origin: one angle in 2D, in 3D three angles about "
+        "x, then y, then z. Applied after `Scale`, before any motion.");
+    parameter::declare(
+        prm, "Move", "", TextPattern::number_vector(),
+        parameter::advanced("length", "0, 1.5"),
+        "Translation, applied after `Rotate`, before any motion.");
   }
 
   void RigidObstacleParameters::parse(ParameterHandler &prm,
@@ -252,7 +305,10 @@ namespace abut::app
     along_axis = prm.get("Gap along") == "axis";
     surface.parse(prm, section);
     for (const Entry &entry : entries())
-      values[entry.name] = prm.get(entry.name);
+    {
+      const std::string value = prm.get(entry.name);
+      values[entry.name] = value == "infinite" ? "0" : value;
+    }
     free = parse_directions(values["Free directions"],
                             parameter("Free directions"));
     mass = prm.get_double("Mass");

@@ -4,12 +4,14 @@
 
 #include "app/input/boundary_expressions.h"
 #include "app/input/expression.h"
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
 #include "memory_check.h"
 #include "shim/reference_faces.h"
 #include "stl.h"
+
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -278,7 +280,7 @@ namespace abut::app
       const auto refuse = [&section](const char *name)
       {
         throw InputError(section + "/" + name,
-                         "has no meaning for a file of triangles (STL).");
+                         "has no effect for a file of triangles (STL).");
       };
       if (parameters.refinements > 0)
         refuse("Refinements");
@@ -325,22 +327,25 @@ namespace abut::app
   {
     using namespace dealii::Patterns;
     MeshParameters::declare(prm);
-    prm.declare_entry("File", "", Anything(),
-                      "Mesh file (msh of gmsh, inp of Abaqus or CalculiX, inp "
-                      "or ucd of UCD, vtk, vtu, unv, xda) whose boundary is "
-                      "the surface, or triangles in 3D "
-                      "(stl, text or binary), read instead of generating a "
-                      "mesh; relative names are relative to the scene file.");
-    prm.declare_entry("Refinements", "0", Integer(0, 30),
-                      "How often the cells at the surface are refined; those "
-                      "inside the body are not.");
-    prm.declare_entry("Surface ids", "*", Anything(),
-                      "Boundary ids that make up the surface, such as `0, 2`, "
-                      "or * for the whole boundary.");
-    prm.declare_entry("Map", "", FormulaPattern::vector(),
-                      "Formulas of the new coordinates in x, y, z, separated "
-                      "by ';', applied last to every node: `x; y; z + 0.1 * "
-                      "sin(x)`. Empty: nothing.");
+    parameter::declare(prm, "File", "", TextPattern::file(),
+                       parameter::advanced("", "sphere.stl"),
+                       "File of a mesh whose boundary is the surface (msh, "
+                       "inp, ucd, vtk, vtu, unv, xda), or of triangles in 3D "
+                       "(stl, text or binary), read instead of generating a "
+                       "mesh. A relative name is relative to the scene file.");
+    parameter::declare(prm, "Refinements", "0", Integer(0, 30),
+                       parameter::advanced("1", "3"),
+                       "Number of refinements of the cells at the surface. "
+                       "Cells inside are not refined.");
+    parameter::declare(
+        prm, "Surface ids", "*", TextPattern("a list of boundary ids"),
+        parameter::advanced("", "0, 2"),
+        "Boundary ids that make up the surface; * is the whole boundary.");
+    parameter::declare(
+        prm, "Map", "", TextPattern::vector(),
+        parameter::advanced("length", "x; y; z + 0.1*sin(x)"),
+        "New coordinates of each node as formulas in x, y, z, separated by "
+        "semicolons. Applied last. Empty: no change.");
   }
 
   void SurfaceParameters::parse(dealii::ParameterHandler &prm,

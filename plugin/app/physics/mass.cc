@@ -97,10 +97,10 @@ namespace abut::app
         return;
       std::ostringstream message;
       message << "all nodes of the cell at (" << cell->center()
-              << ") are on the secondary surface of a pair, so that no "
-                 "neighbour can take their mass: the body is one element "
-                 "thick there. Refine it, or set Time/Mass = consistent.";
-      throw InputError("Time/Mass", message.str());
+              << ") are on the secondary surface of a pair: the body is one "
+                 "element thick, and no neighbour can receive their mass. "
+                 "Refine it, or set Time stepping/Mass matrix = consistent.";
+      throw InputError("Time stepping/Mass matrix", message.str());
     }
   } // namespace
 

@@ -25,12 +25,17 @@ namespace abut::app
       {"Young modulus",
        "1",
        {nullptr, 1. / largest_value, largest_value, false, false},
-       "E, force per area; of large strain that at its beginning, as nu."},
+       "Young modulus E; at finite strain, like nu, that of small "
+       "deformation.",
+       "force/length^2",
+       "210e3"},
       {"Poisson ratio",
        "0.3",
        {nullptr, -1., 0.5, true, true},
-       "nu. At 0.5 the material would be incompressible, which displacements "
-       "alone cannot describe. From 0.45 on set `Element` = mean dilatation."}};
+       "Poisson ratio nu, below 0.5 (incompressible). From 0.45 on set "
+       "`Element = mean dilatation`.",
+       "1",
+       "0.499"}};
 
   const MaterialKind &find_material(const std::string &word)
   {

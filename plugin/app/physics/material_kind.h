@@ -24,6 +24,8 @@ namespace abut::app
     const char *value; ///< default
     abut_limit range;
     const char *help;
+    const char *unit;
+    const char *example;
   };
 
   using MaterialNumbers = std::vector<MaterialNumber>;

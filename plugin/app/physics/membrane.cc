@@ -112,7 +112,7 @@ namespace abut::app
       {
         if (!data.constant_load)
           checked_values(*data.load, values.get_quadrature_points(),
-                         "Membrane/Load", f);
+                         "Membrane/Body force", f);
         load = 0.;
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           for (unsigned int i = 0; i < load.size(); ++i)
@@ -158,7 +158,7 @@ namespace abut::app
           any = true;
           values.reinit(cell, face);
           checked_values(*data.neumann.at(face->boundary_id()),
-                         values.get_quadrature_points(), "Membrane/Neumann",
+                         values.get_quadrature_points(), "Membrane/Traction",
                          flux);
           for (unsigned int q = 0; q < quadrature.size(); ++q)
             for (unsigned int i = 0; i < load.size(); ++i)

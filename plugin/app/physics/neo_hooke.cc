@@ -104,8 +104,8 @@ namespace abut::app
 
   extern const MaterialKind neo_hooke_kind = {
       "neo-hooke",
-      "rubber, strains and displacements of any size; loads are per area and "
-      "volume of the undeformed body.",
+      "finite strain, rubber; loads per area and volume of the reference "
+      "configuration.",
       true,
       false,
       nullptr,

@@ -30,7 +30,7 @@ namespace abut::app
                        "'" + formula.text() + "' is " + short_number(value)
                            + " at " + at + "): more than "
                            + short_number(largest_value)
-                           + ", which no motion begins with.");
+                           + ", which is not a state at the start.");
     }
 
     /** Put the values of a formula at the nodes of a cell into their places. */

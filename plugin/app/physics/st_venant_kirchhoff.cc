@@ -64,13 +64,13 @@ namespace abut::app
 
   extern const MaterialKind st_venant_kirchhoff_kind = {
       "st venant-kirchhoff",
-      "Hooke's law in large rotations, for compressions of up to a fifth; "
-      "loads are per area and volume of the undeformed body.",
+      "Hooke's law with large rotations, for compression up to 20 %; loads per "
+      "area and volume of the reference configuration.",
       true,
       false,
-      "the energy of st venant-kirchhoff has no part that is one of volume "
-      "alone, so that mean dilatation has nothing to average",
-      "it becomes softer the more it is pressed",
+      "the energy of st venant-kirchhoff has no volumetric part for mean "
+      "dilatation",
+      "it softens in compression",
       "neo-hooke",
       elastic_constants,
       make_material<StVenantKirchhoff, 2>,

@@ -13,8 +13,7 @@ namespace abut::app
   inline void check_motion(const abut_status status)
   {
     if (status != ABUT_SUCCESS)
-      throw std::runtime_error(
-          "The motion has become infinite or is no number any more.");
+      throw std::runtime_error("The motion is not finite any more.");
   }
 } // namespace abut::app
 

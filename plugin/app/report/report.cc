@@ -3,15 +3,19 @@
 
 #include "app/input/short_number.h"
 #include "app/restart/disk.h"
+#include "brief_report.h"
 #include "json.h"
 #include "peak_memory.h"
 #include "processor_time.h"
+
+#include <abut/dealii/nearest_word.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -130,10 +134,11 @@ namespace abut::app
     }
   } // namespace
 
-  Report::Report(MPI_Comm communicator, const bool quiet)
+  Report::Report(MPI_Comm communicator, const Verbosity verbosity)
       : communicator(communicator),
-        quiet(quiet),
+        verbosity(verbosity),
         root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
+        lines(verbosity == Verbosity::all),
         start(std::chrono::steady_clock::now()),
         processor_start(processor_seconds())
   {
@@ -167,6 +172,51 @@ namespace abut::app
     return std::monostate();
   }
 
+  std::vector<std::string> Report::keys() const
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, value] : values)
+      names.push_back(name);
+    return names;
+  }
+
+  std::optional<double> Report::number(const std::string &key) const
+  {
+    const std::size_t bracket = key.find('[');
+    const Value value = get(key.substr(0, bracket));
+    std::optional<double> result;
+    if (const auto *vector = std::get_if<std::vector<double>>(&value))
+    {
+      const std::size_t entry =
+          bracket == std::string::npos
+              ? 0
+              : std::strtoul(&key[bracket + 1], nullptr, 10);
+      if (entry < vector->size()
+          && (bracket != std::string::npos || vector->size() == 1))
+        result = (*vector)[entry];
+    }
+    else if (bracket != std::string::npos)
+      return {};
+    else if (const auto *number = std::get_if<double>(&value))
+      result = *number;
+    else if (const auto *count = std::get_if<std::int64_t>(&value))
+      result = static_cast<double>(*count);
+    return result && std::isfinite(*result) ? result : std::nullopt;
+  }
+
+  void Report::expect(const std::string &key, const double value)
+  {
+    expected.push_back({key, value});
+  }
+
+  void Report::check_expected()
+  {
+    for (const ExpectedFigure &figure : expected)
+      if (!number(figure.key))
+        warn("Output/Expected: the results have no number '" + figure.key + "'."
+             + did_you_mean(figure.key, keys()));
+  }
+
   void Report::declare_columns(const std::vector<std::string> &names)
   {
     AssertThrow(rows.empty(), dealii::ExcMessage("the table has rows already"));
@@ -189,17 +239,26 @@ namespace abut::app
 
   bool Report::prints() const
   {
-    return root && !quiet;
+    return root && verbosity != Verbosity::quiet;
   }
 
-  void Report::progress(const std::string &line)
+  void Report::print(const std::string &line)
   {
-    if (!prints())
-      return;
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(2) << std::setw(8) << elapsed()
-        << " s  " << line << "\n";
-    std::cout << out.str() << std::flush;
+    if (prints())
+      lines.print(line);
+  }
+
+  void Report::progress(const std::string &line,
+                        const std::optional<double> done)
+  {
+    if (prints())
+      lines.step(line, elapsed(), done);
+  }
+
+  void Report::detail(const std::string &line)
+  {
+    if (prints())
+      lines.detail(line, elapsed());
   }
 
   void Report::warn(const Message &message)
@@ -213,8 +272,10 @@ namespace abut::app
       if (place == codes.end() || *place != known->code)
         codes.insert(place, known->code);
     }
-    if (root)
-      std::cerr << "abut: warning: " << line << std::endl;
+    if (!root)
+      return;
+    lines.interrupt();
+    std::cerr << "abut: warning: " << line << std::endl;
   }
 
   void Report::model(const std::string &what, const bool on,
@@ -293,6 +354,10 @@ namespace abut::app
                    { json.value(name, v); },
                    value);
     write_examination(json, values);
+    json.begin("expected");
+    for (const ExpectedFigure &figure : expected)
+      json.value(figure.key, figure.value);
+    json.end();
     json.value("warnings", warnings);
     json.value("codes", codes);
     write_failures(json, codes);
@@ -378,7 +443,7 @@ namespace abut::app
   void Report::print_model(std::ostream &out) const
   {
     if (!model_lines.empty())
-      out << "\n  What was modelled\n";
+      out << "\n  Model\n";
     std::size_t width = 0;
     for (const ModelLine &line : model_lines)
       width = std::max(width, line.what.size());
@@ -398,7 +463,7 @@ namespace abut::app
   {
     const double wall = wall_seconds();
     if (!sections.empty())
-      out << "\n  What it cost" << std::string(22, ' ')
+      out << "\n  Cost" << std::string(30, ' ')
           << "seconds   share       MiB     calls\n";
     for (const SectionTimes::Section &section : sections)
     {
@@ -417,19 +482,16 @@ namespace abut::app
     if (!root)
       return;
     std::ostringstream out;
-    out << "\n  What could be left out\n";
+    out << "\n  Parts that could be left out\n";
     for (const std::string &line : left_out)
       out << "  - " << line << "\n";
     if (left_out.empty())
-      out << "  nothing that this run can tell\n";
+      out << "  none found by this run\n";
     std::cout << out.str() << std::flush;
   }
 
-  void Report::print_summary() const
+  void Report::print_all(std::ostream &out) const
   {
-    if (!prints())
-      return;
-    std::ostringstream out;
     out << "\n";
     std::size_t width = 0;
     for (const auto &[name, value] : values)
@@ -447,6 +509,20 @@ namespace abut::app
       out << "  " << line << "\n";
     for (const std::string &line : warnings)
       out << "\n  warning: " << line << "\n";
+  }
+
+  void Report::print_summary()
+  {
+    if (!prints())
+      return;
+    lines.finish();
+    std::ostringstream out;
+    print_brief(out, *this, lines.n_printed());
+    if (verbosity == Verbosity::all)
+      print_all(out);
+    else if (!unused.empty())
+      out << "  settings without effect, listed by --verbose: " << unused.size()
+          << "\n";
     std::cout << out.str() << std::flush;
   }
 } // namespace abut::app

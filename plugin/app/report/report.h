@@ -7,6 +7,7 @@
  * closing table.
  */
 
+#include "progress_lines.h"
 #include "section_times.h"
 
 #include <abut/dealii/coded.h>
@@ -18,6 +19,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -26,6 +28,21 @@
 
 namespace abut::app
 {
+  /** How much a command prints. */
+  enum class Verbosity
+  {
+    quiet, ///< warnings only
+    brief, ///< a screen: the results that a reader looks for first
+    all    ///< each line of progress, and all figures with their keys
+  };
+
+  /** A figure of the summary whose value is known beforehand. */
+  struct ExpectedFigure
+  {
+    std::string key; ///< `energy`, or `pair_1_force[1]` of a vector
+    double value;
+  };
+
   /** Collects the results of one run. All ranks hold the same values and call
    * the same functions; only rank 0 prints and writes.
    *
@@ -41,8 +58,7 @@ namespace abut::app
     using Value = std::variant<std::monostate, bool, std::int64_t, double,
                                std::string, std::vector<double>>;
 
-    /** @param quiet print warnings only */
-    Report(MPI_Comm communicator, bool quiet);
+    Report(MPI_Comm communicator, Verbosity verbosity);
 
     /** @name Summary @{ */
     /** Any number, truth value, text or vector of numbers. */
@@ -64,6 +80,25 @@ namespace abut::app
 
     /** Present value of a key; monostate when there is none. */
     Value get(const std::string &key) const;
+
+    /** All keys, those without a value too. */
+    std::vector<std::string> keys() const;
+
+    /** A number, or the component of a vector that `key[i]` names, counted
+     * from 0; none when it is not there or not finite. */
+    std::optional<double> number(const std::string &key) const;
+
+    /** A figure has this value by a formula or another program. Collected
+     * under the key `expected`. */
+    void expect(const std::string &key, double value);
+
+    const std::vector<ExpectedFigure> &expected_figures() const
+    {
+      return expected;
+    }
+
+    /** Warn of expected figures that the summary does not have. */
+    void check_expected();
     /** @} */
 
     /** @name Table `levels.csv` @{ */
@@ -81,13 +116,26 @@ namespace abut::app
     /** @} */
 
     /** @name Console @{ */
-    /** One line of progress, preceded by the elapsed time. */
-    void progress(const std::string &line);
+    /** A line that is no progress (rank 0, unless quiet). */
+    void print(const std::string &line);
+
+    /** A step of the run has ended. One line, preceded by the elapsed time; a
+     * brief report has a few of them, see ProgressLines.
+     * @param done part of the run that is behind it, where that is known */
+    void progress(const std::string &line, std::optional<double> done = {});
+
+    /** A line of progress that a brief report leaves out. */
+    void detail(const std::string &line);
 
     /** A line for the user that is printed even when quiet, and again at the
      * end. Collected under the key `warnings`; known failures, see coded(),
      * under `codes`, too. */
     void warn(const Message &message);
+
+    std::size_t n_warnings() const
+    {
+      return warnings.size();
+    }
 
     /** A line of the closing table of what was modelled: @p what ("adaptive
      * refinement"), on or off, and the reason. @p cost names the sections of
@@ -118,8 +166,10 @@ namespace abut::app
     /** Write summary.json and levels.csv into @p folder (rank 0). */
     void write(const std::filesystem::path &folder) const;
 
-    /** Print the closing tables (rank 0, unless quiet). */
-    void print_summary() const;
+    /** Print the results: a brief report the figures that a reader looks for
+     * first, another one all of them and the closing tables (rank 0, unless
+     * quiet). */
+    void print_summary();
 
     /** Print what could have been left out (rank 0). */
     void explain() const;
@@ -165,12 +215,15 @@ namespace abut::app
     void print_model(std::ostream &out) const;
     void print_cost(std::ostream &out) const;
 
+    void print_all(std::ostream &out) const;
+
     void set_value(const std::string &key, Value value);
 
     bool prints() const;
 
-    bool quiet;
-    bool root;
+    const Verbosity verbosity;
+    const bool root;
+    ProgressLines lines;
     std::chrono::steady_clock::time_point start;
     double processor_start;
     std::vector<std::pair<std::string, Value>> values;
@@ -182,6 +235,7 @@ namespace abut::app
     std::vector<ModelLine> model_lines;
     std::vector<std::string> left_out;
     std::vector<std::string> unused;
+    std::vector<ExpectedFigure> expected;
   };
 } // namespace abut::app
 

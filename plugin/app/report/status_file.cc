@@ -97,9 +97,8 @@ namespace abut::app
   {
   }
 
-  std::string StatusFile::text(const std::string &status,
-                               const std::string &error, const bool has_results,
-                               const int code) const
+  std::string StatusFile::text(const std::string &status, const Message &error,
+                               const bool has_results, const int code) const
   {
     std::ostringstream out;
     JsonWriter json(out);
@@ -109,7 +108,9 @@ namespace abut::app
       json.value("exit_code", std::monostate());
     else
       json.value("exit_code", static_cast<std::int64_t>(code));
-    json.value("error", error);
+    json.value("error", error.text);
+    const auto *known = abut_failure_get(error.failure);
+    json.value("code", std::string(known ? known->code : ""));
     json.value("has_results", has_results);
     json.value("command", command);
     json.value("scene_file", scene_file);
@@ -131,7 +132,7 @@ namespace abut::app
       replace_on_disk(folder / "run.json", text("running", "", false, no_code));
   }
 
-  void StatusFile::end(const ExitCode code, const std::string &error,
+  void StatusFile::end(const ExitCode code, const Message &error,
                        const bool has_results) noexcept
   try
   {

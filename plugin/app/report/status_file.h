@@ -4,6 +4,8 @@
 
 #include "app/input/input_error.h"
 
+#include <abut/dealii/coded.h>
+
 #include <mpi.h>
 
 #include <filesystem>
@@ -29,13 +31,12 @@ namespace abut::app
     /** The run ends. Nothing is written if there is no folder or no room.
      * @param error what the program prints at the end; may be empty
      * @param has_results this run has written summary.json */
-    void end(ExitCode code, const std::string &error,
-             bool has_results) noexcept;
+    void end(ExitCode code, const Message &error, bool has_results) noexcept;
 
     const std::filesystem::path folder;
 
   private:
-    std::string text(const std::string &status, const std::string &error,
+    std::string text(const std::string &status, const Message &error,
                      bool has_results, int code) const;
 
     const bool root;

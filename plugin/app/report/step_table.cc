@@ -31,11 +31,10 @@ namespace abut::app
                     double(progress.n_changes), double(linear.n_iterations),
                     double(linear.n_setups), progress.penalty, progress.barrier,
                     progress.penetration, double(progress.outer)});
-    report.progress("  step " + std::to_string(step) + ": "
-                    + std::to_string(progress.n_active) + " in contact, "
-                    + std::to_string(progress.n_changes) + " changed, "
-                    + std::to_string(linear.n_iterations)
-                    + " linear iterations");
+    report.detail("  step " + std::to_string(step) + ": "
+                  + std::to_string(progress.n_active) + " in contact, "
+                  + std::to_string(progress.n_changes) + " changed, "
+                  + std::to_string(linear.n_iterations) + " linear iterations");
   }
 
   void StepTable::add(Report &report, const unsigned int load_step,
@@ -43,13 +42,13 @@ namespace abut::app
   {
     newton.push_back({double(load_step), double(level), double(step.number),
                       step.part, step.before, step.residual, step.error});
-    report.progress(
-        "  linearisation " + std::to_string(step.number)
-        + ": forces out of balance " + short_number(step.before, 3) + " -> "
-        + short_number(step.residual, 3)
-        + (step.part < 1. ? " by " + short_number(step.part, 3) + " of the step"
-                          : std::string())
-        + ", error " + short_number(step.error, 2));
+    report.detail("  linearisation " + std::to_string(step.number)
+                  + ": forces out of balance " + short_number(step.before, 3)
+                  + " -> " + short_number(step.residual, 3)
+                  + (step.part < 1.
+                         ? " by " + short_number(step.part, 3) + " of the step"
+                         : std::string())
+                  + ", error " + short_number(step.error, 2));
   }
 
   void StepTable::write(const std::filesystem::path &file,

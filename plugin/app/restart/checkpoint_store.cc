@@ -176,18 +176,17 @@ namespace abut::app
                  {
                    if (read_from_disk(checkpoint / list_name)
                        != list_files(checkpoint))
-                     problem = "its files are not those that were written";
+                     problem = "its files were changed";
                  }
                  catch (const std::exception &error)
                  {
                    problem = error.what();
                  }
                  if (!problem.empty())
-                   throw InputError(
-                       "", "the checkpoint '" + checkpoint.string()
-                               + "' is damaged: " + problem
-                               + ". Run the scene without --resume to begin "
-                                 "anew.");
+                   throw InputError("",
+                                    "the checkpoint '" + checkpoint.string()
+                                        + "' is damaged: " + problem
+                                        + ". Run the scene without --resume.");
                });
   }
 

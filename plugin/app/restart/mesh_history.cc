@@ -39,8 +39,8 @@ namespace abut::app
     {
       const std::string &flags = steps[step];
       AssertThrow(flags.size() == mesh_.n_active_cells(),
-                  dealii::ExcMessage("The mesh of the checkpoint has not "
-                                     "begun as the scene's mesh does."));
+                  dealii::ExcMessage("The coarse mesh of the checkpoint "
+                                     "differs from that of the scene."));
       std::size_t i = 0;
       for (const auto &cell : mesh_.active_cell_iterators())
       {

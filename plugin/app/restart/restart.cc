@@ -51,12 +51,12 @@ namespace abut::app
     same_ranks_ = before[rank_number] == now[rank_number];
     before.erase(rank_number);
     now.erase(rank_number);
-    const std::string what = difference(before, now);
+    const std::string what = difference(with_present_names(before, now), now);
     if (!what.empty())
       throw InputError("", "the checkpoint '" + source_->string()
                                + "' is of another run: " + what
-                               + ". Go on with what it was begun with, or run "
-                                 "the scene without --resume.");
+                               + ". Use the settings that it was started with, "
+                                 "or run the scene without --resume.");
   }
 
   std::string Restart::bytes() const

@@ -14,6 +14,11 @@ namespace abut::app
   /** The entries of a program of this build. */
   RunIdentity program_identity();
 
+  /** @p before with today's names and words of its parameters; @p now is the
+   * identity that it is compared with. */
+  RunIdentity with_present_names(const RunIdentity &before,
+                                 const RunIdentity &now);
+
   /** What differs between the run that wrote a checkpoint and the present one,
    * in words; empty: nothing. */
   std::string difference(const RunIdentity &before, const RunIdentity &now);

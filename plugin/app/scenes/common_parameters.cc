@@ -2,9 +2,14 @@
 #include "common_parameters.h"
 
 #include "app/input/effect_rules.h"
+#include "app/input/expression.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/pair_measures.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <ostream>
 
@@ -14,6 +19,8 @@ namespace abut::app
   {
     using dealii::ParameterHandler;
     namespace Patterns = dealii::Patterns;
+
+    const char *const expected_name = "Expected";
 
     std::vector<std::string> kind_names()
     {
@@ -42,21 +49,29 @@ namespace abut::app
       return words;
     }
 
-    void write_parameter(std::ostream &out, const DeclaredParameter &parameter)
-    {
-      const std::size_t slash = parameter.path.rfind('/');
-      const std::string name = slash == std::string::npos
-                                   ? parameter.path
-                                   : parameter.path.substr(slash + 1);
-      out << "- **" << name << "** = ";
-      if (parameter.default_value.empty())
-        out << "(empty)";
-      else
-        out << "`" << parameter.default_value << "`";
-      out << " (" << parameter.pattern << "). " << parameter.documentation
-          << "\n";
-    }
   } // namespace
+
+  std::vector<ExpectedFigure> parse_expected(const std::string &text)
+  {
+    const std::string path = std::string("Output/") + expected_name;
+    std::vector<ExpectedFigure> figures;
+    for (const std::string &part : split_list(text, ';'))
+    {
+      if (part.empty())
+        continue;
+      const std::size_t colon = part.find(':');
+      if (colon == std::string::npos || colon == 0)
+        throw InputError(path, "'" + part
+                                   + "' is not a figure, a colon, and its "
+                                     "value.");
+      const Expression<2> formula(part.substr(colon + 1), path);
+      if (!formula.is_constant())
+        throw InputError(path, "'" + part + "' depends on x, y or t.");
+      figures.push_back({dealii::Utilities::trim(part.substr(0, colon)),
+                         formula.evaluate({dealii::Point<2>()})[0]});
+    }
+    return figures;
+  }
 
   const SceneKind &scene_kind(const ParameterFile &file)
   {
@@ -66,8 +81,7 @@ namespace abut::app
         return kind;
     const std::string legal = "one of " + joined(kind_names(), ", ") + ".";
     if (name.empty())
-      throw InputError("Scene", "the file does not say what kind of scene it "
-                                "is: 'set Scene' to "
+      throw InputError("Scene", "the file has no kind of scene: 'set Scene' to "
                                     + legal);
     throw InputError("Scene", "'" + name + "' is not " + legal
                                   + did_you_mean(name, kind_names()));
@@ -89,84 +103,45 @@ namespace abut::app
   void declare_all(ParameterHandler &prm, const SceneKind &kind,
                    const Scene &scene)
   {
-    prm.declare_entry("Scene", kind.name,
-                      Patterns::Selection(joined(kind_names(), "|")),
-                      "Kind of scene; it decides which parameters there are.");
+    parameter::declare(prm, "Scene", kind.name,
+                       Patterns::Selection(joined(kind_names(), "|")),
+                       parameter::basic(),
+                       "Kind of scene, which determines the other parameters.");
     const std::vector<std::string> words = dimension_words(kind);
     if (!words.empty())
-      prm.declare_entry("Dimension", words[0],
-                        Patterns::Selection(joined(words, "|")),
-                        "Number of space dimensions.");
-    prm.declare_entry("Title", "", Patterns::Anything(),
-                      "A line about the scene, for the summary and the "
-                      "pictures.");
+      parameter::declare(prm, "Dimension", words[0],
+                         Patterns::Selection(joined(words, "|")),
+                         parameter::basic(), "Number of space dimensions.");
+    parameter::declare(prm, "Title", "", TextPattern("a line of text"),
+                       parameter::basic("", "Two cylinders"),
+                       "Title for the summary and the pictures.");
     scene.declare(prm);
     prm.enter_subsection("Output");
-    prm.declare_entry("Pictures", "false", Patterns::Bool(),
-                      "Draw pictures (SVG and PNG) at the end, as `abut "
-                      "draw FOLDER` does; it needs Python with Matplotlib.");
-    prm.declare_entry("Report", "false", Patterns::Bool(),
-                      "Write a page about the run, report.html, as `abut "
-                      "report` does; also where the scene has an error.");
+    parameter::declare(
+        prm, "Pictures", "false", Patterns::Bool(), parameter::advanced(),
+        "Whether pictures (SVG and PNG) are drawn at the end (`abut "
+        "draw`); it needs Python with Matplotlib.");
+    parameter::declare(prm, "Report", "false", Patterns::Bool(),
+                       parameter::basic(),
+                       "Whether a page about the run, report.html, is written "
+                       "(`abut report`), also for a scene with an error.");
+    parameter::declare(
+        prm, expected_name, "", TextPattern("figures and their values"),
+        parameter::advanced("", "pair_1_pressure: sqrt(2/pi); "
+                                "pair_1_force[1]: 5"),
+        "Figures of summary.json whose values are known beforehand: numbers, "
+        "or formulas with pi. A component of a vector has its number, from 0. "
+        "The run prints them with the relative errors of its results.");
     prm.leave_subsection();
   }
 
   void require_law_without_stress(const MethodParameters &method)
   {
     if (abut_law_needs_stress(method.options.law))
-      throw InputError("Method/Enforcement",
-                       std::string(method.options.law->name)
-                           + " works with the stress of elastic bodies, of "
-                             "which this scene has none: use lagrange or "
-                             "augmented lagrangian.");
-  }
-
-  void write_parameters(std::ostream &out, const ParameterHandler &prm,
-                        const std::string &what)
-  {
-    const std::vector<DeclaredParameter> all = declared_parameters(prm);
-    std::string section;
-    // Those outside of sections come first.
-    for (const DeclaredParameter &parameter : all)
-      if (section_of(parameter.path).empty())
-        write_parameter(out, parameter);
-    for (const DeclaredParameter &parameter : all)
-    {
-      if (section_of(parameter.path).empty())
-        continue;
-      if (section_of(parameter.path) != section)
-        out << "\n### " << section_of(parameter.path) << " (" << what
-            << ")\n\n";
-      section = section_of(parameter.path);
-      write_parameter(out, parameter);
-    }
-  }
-
-  void write_reference(std::ostream &out)
-  {
-    out << "# Parameters\n\n"
-           "Printed by `abut parameters`; do not edit. Each entry gives name, "
-           "default,\nlegal values and meaning. A parameter `Name` of section "
-           "`Section` is set in a\nscene file by\n\n"
-           "    subsection Section\n      set Name = value\n    end\n\n"
-           "and on the command line by `--set \"Section/Name=value\"`.\n";
-    for (const SceneKind &kind : scene_kinds())
-    {
-      ParameterHandler prm;
-      declare_all(prm, kind, *kind.create(kind.dimensions[0]));
-      out << "\n## Scene `" << kind.name << "`\n\n"
-          << kind.description << "\n\n";
-      write_parameters(out, prm, kind.name);
-    }
-    out << "\n## Pairs in `summary.json`\n\n"
-           "Keys of pair `N` begin with `pair_N_`.\n\n"
-           "| key | unit | quantity |\n|---|---|---|\n";
-    for (const PairMeasure<3> &measure : pair_measures<3>())
-      if (measure.reported != ReportedOf::none)
-        out << "| `" << measure.name << "` | " << measure.unit << " | "
-            << measure.text
-            << (measure.reported == ReportedOf::friction ? ", with friction"
-                                                         : "")
-            << " |\n";
+      throw InputError(
+          "Method/Enforcement",
+          std::string(method.options.law->name)
+              + " needs the stress of elastic bodies, and this scene has no "
+                "bodies: use lagrange or augmented lagrangian.");
   }
 } // namespace abut::app

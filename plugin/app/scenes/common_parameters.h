@@ -7,8 +7,6 @@
 
 #include <abut/dealii/method_parameters.h>
 
-#include <iosfwd>
-
 namespace abut::app
 {
   /** The kind of scene that a file asks for by `set Scene`. */
@@ -23,16 +21,13 @@ namespace abut::app
   void declare_all(dealii::ParameterHandler &prm, const SceneKind &kind,
                    const Scene &scene);
 
+  /** Read `Output/Expected`: figures and formulas, "energy: 2*pi; active: 3".
+   */
+  std::vector<ExpectedFigure> parse_expected(const std::string &text);
+
   /** Throw InputError for laws that need the stress of elastic bodies: for
    * scenes without any. */
   void require_law_without_stress(const MethodParameters &method);
-
-  /** The parameters declared in @p prm as Markdown, those of @p what. */
-  void write_parameters(std::ostream &out, const dealii::ParameterHandler &prm,
-                        const std::string &what);
-
-  /** The reference of all scenes' parameters as Markdown. */
-  void write_reference(std::ostream &out);
 } // namespace abut::app
 
 #endif

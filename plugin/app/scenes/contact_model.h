@@ -339,6 +339,9 @@ namespace abut::app
     {
     }
 
+    /** What is solved, and how: bodies, contact, method. */
+    virtual std::string description() const = 0;
+
     /** A line of progress about a result. */
     virtual std::string line_of(const ContactResult &result) const = 0;
 

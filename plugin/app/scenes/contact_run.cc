@@ -93,6 +93,7 @@ namespace abut::app
   template <int dim> void ContactRun<dim>::check()
   {
     prepare();
+    report.print("  " + model.description());
     if (model.has_contact())
     {
       state.present.time = state.load_steps.target();
@@ -107,7 +108,47 @@ namespace abut::app
         throw InputError(model.support_of(why), why);
     }
     model.report_check();
-    report.set("dofs", model.problem().dof_handler.n_dofs());
+    report_size();
+  }
+
+  template <int dim> void ContactRun<dim>::report_size()
+  {
+    const DiscreteProblem<dim> &problem = model.problem();
+    const RefinementParameters &refinement = state.settings.refinement;
+    const unsigned int degree = problem.dof_handler.get_fe(0).degree,
+                       n_components = problem.n_components(),
+                       first = state.mesh_number;
+    // Unknowns inside of the cells, and others on surfaces.
+    const double n_dofs = double(problem.dof_handler.n_dofs());
+    const double inside = double(model.triangulation.n_global_active_cells())
+                          * std::pow(degree, dim) * n_components;
+    const double finer = std::pow(2., refinement.level - first);
+    const double n_last =
+        first < refinement.level
+            ? inside * std::pow(finer, dim)
+                  + std::max(0., n_dofs - inside) * std::pow(finer, dim - 1)
+            : n_dofs;
+    const double bytes =
+        estimated_bytes(dim, n_last / (n_components * std::pow(degree, dim)),
+                        degree, n_components);
+    report.set("dofs", problem.dof_handler.n_dofs());
+    report.set("expected_dofs", n_last);
+    report.set("expected_memory_mb", bytes / 1048576.);
+    report.print("  unknowns: " + short_number(n_dofs)
+                 + (first < refinement.level
+                        ? " on the first mesh, about " + short_number(n_last, 3)
+                              + " on mesh " + std::to_string(refinement.level)
+                        : "")
+                 + (refinement.adaptive_cycles > 0
+                        ? ", more on adaptive meshes up to number "
+                              + std::to_string(refinement.last_mesh())
+                        : ""));
+    report.print("  memory: about " + short_number(bytes / 1048576., 2)
+                 + " MiB; linear systems: "
+                 + (state.settings.solver.is_direct(
+                        static_cast<unsigned long long>(n_last), n_components)
+                        ? "direct solver"
+                        : "iterative solver with multigrid"));
   }
 
   template <int dim> Message ContactRun<dim>::free_motion()
@@ -238,9 +279,9 @@ namespace abut::app
     { return refuse(search); };
     events.missed = [this](const std::size_t n_nodes)
     {
-      report.progress("  " + std::to_string(n_nodes)
-                      + " nodes have penetrated without a constraint: "
-                      + "searching again");
+      report.detail("  " + std::to_string(n_nodes)
+                    + " nodes have penetrated without a constraint: "
+                    + "searching again");
     };
     return events;
   }
@@ -343,7 +384,7 @@ namespace abut::app
     {
     case NewtonReason::contact:
       return coded(contact.failure,
-                   "The contact iteration ended without an answer after "
+                   "The contact iteration ended without a solution after "
                        + std::to_string(state.present.steps)
                        + " steps: " + contact.explanation);
     case NewtonReason::linear_solve:
@@ -361,9 +402,9 @@ namespace abut::app
     const bool is_nonlinear =
         !model.problem().is_linear() || state.contact.points_move();
     return code == ABUT_FAILURE_CYCLE && is_nonlinear && !model.has_inertia()
-               ? " The equilibrium may be unstable from this load on (a limit "
-                 "point, as in snap-through): prescribe displacements instead "
-                 "of forces, or compute the motion (section Time)."
+               ? " The equilibrium may be unstable from this load on (limit "
+                 "point, as in snap-through). Prescribe displacements instead "
+                 "of forces, or use a Time stepping/Scheme with inertia."
                : "";
   }
 
@@ -419,12 +460,12 @@ namespace abut::app
       // Reports want rows; there are those that the step began with.
       model.set_contact(state.contact, state.load_steps.time());
       name_parameter(model, [&] { state.contact.detect(model.last_place()); });
-      failure = by_force
-                    ? coded(ABUT_FAILURE_NO_PARTNER,
-                            "Within a step forces drive an obstacle into a "
-                            "body past its surface: use a smaller Time/Step, "
-                            "or smaller forces.")
-                    : without_pair(error.message());
+      failure =
+          by_force ? coded(
+              ABUT_FAILURE_NO_PARTNER,
+              "Within a step forces drive an obstacle through the surface of a "
+              "body. Use a smaller Time stepping/Step size, or smaller forces.")
+                   : without_pair(error.message());
       return false;
     }
   }
@@ -559,9 +600,8 @@ namespace abut::app
       {
         if (!can_pass_over())
           return false;
-        report.progress("mesh " + std::to_string(state.mesh_number + 1)
-                        + " has no answer, which the next one only starts "
-                          "from: "
+        report.detail("mesh " + std::to_string(state.mesh_number + 1)
+                        + " has no solution; the next one starts without it: "
                         + failure.text);
         set_refine_flags();
         refine();
@@ -580,11 +620,10 @@ namespace abut::app
       set_refine_flags();
       if (is_too_fine())
       {
-        missed_target =
-            "Cells of level " + std::to_string(deepest_level<dim>)
-            + " cannot be refined any more: the error estimate does "
-              "not fall where they are. Look for data that jumps, or "
-              "ask for less.";
+        missed_target = "Cells of level " + std::to_string(deepest_level<dim>)
+                        + " cannot be refined further: the error estimate does "
+                          "not decrease there. Check for data that jump, or "
+                          "use a larger Refinement/Target error.";
         return true;
       }
       if (state.settings.all_levels)
@@ -725,9 +764,9 @@ namespace abut::app
     const bool goes_on = load_steps.reject() && why.empty();
     const bool is_same = failure.text == told;
     if (goes_on)
-      report.progress("load step cut back to time "
-                      + short_number(load_steps.target(), 6) + ": "
-                      + (is_same ? "for the same reason" : failure.text));
+      report.detail("load step cut back to time "
+                    + short_number(load_steps.target(), 6) + ": "
+                    + (is_same ? "for the same reason" : failure.text));
     else
     {
       // Perhaps the reason.
@@ -736,9 +775,9 @@ namespace abut::app
                                 || code == ABUT_FAILURE_LINEAR_SOLVER;
       report.warn(failure + where + instability(code)
                   + (is_same && !model.has_inertia() && !is_of_matrix
-                         ? " Smaller load steps have ended in the same way: "
-                           "loads and motions whose formulas do not contain t "
-                           "are not made smaller by them."
+                         ? " Smaller load steps failed as well: loads and "
+                           "motions without t are applied at once. Multiply "
+                           "their formulas by t."
                          : ""));
     }
     told = failure.text;
@@ -771,6 +810,10 @@ namespace abut::app
     else
     {
       prepare();
+      report.print("  " + model.description() + "; "
+                   + std::to_string(model.problem().dof_handler.n_dofs())
+                   + " unknowns"
+                   + (state.is_last_mesh() ? "" : " on the first mesh"));
       solve_start();
       if (model.has_contact())
         diagnose_penalty(report, state.settings.method);
@@ -812,11 +855,10 @@ namespace abut::app
                             || largest_motion > least_load;
     if (!has_digits)
       report.warn("Forces at nodes are " + short_number(largest_load, 3)
-                  + " at the most, and squares of such numbers are 0: nothing "
-                    "can be computed with them. Choose other units of loads "
-                    "and stiffness.");
+                  + " at most, and squares of such numbers are 0. Choose other "
+                    "units of loads and stiffness.");
     for (const BodyMotion &motion : examination.motions)
-      report.progress(motion.text);
+      report.detail(motion.text);
     for (const ContactFinding &finding : examination.findings)
       report.warn(finding);
     for (const std::string &lost : model.written_numbers().lost())

@@ -40,10 +40,9 @@ namespace abut::app
     /** What has mass floats in a step only if its inertia is lost in round-off.
      */
     static constexpr const char *inertia_vanishes =
-        "Inertia vanishes beside the stiffness, so that nothing holds what "
-        "supports and contact leave free: mass over the square of the time "
-        "step has no digits left there. Look at the units of Density, use a "
-        "larger one or a shorter Time/Step, or support the bodies.";
+        "Inertia is below round-off of the stiffness, so rigid body modes are "
+        "free. Check the units of Density; use a larger density, a smaller "
+        "Time stepping/Step size, or supports.";
 
     void prepare();
     void setup_mesh();
@@ -52,6 +51,8 @@ namespace abut::app
     /** Of the method on the present mesh; forgets preconditioners. */
     void set_parameters();
     void begin_contact();
+    /** Unknowns and memory that the run will take, for `abut check`. */
+    void report_size();
     /** A rigid motion that nothing can hold, in words; or empty. */
     Message free_motion();
     NewtonParameters newton_parameters() const;

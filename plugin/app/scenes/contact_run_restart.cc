@@ -104,7 +104,7 @@ namespace abut::app
     };
     state.options.restart->write(save);
     marked.mesh = MeshPart();
-    report.progress("checkpoint written");
+    report.detail("checkpoint written");
   }
 
   template <int dim> void ContactRun<dim>::restore()
@@ -144,7 +144,7 @@ namespace abut::app
     from_bytes(saved.report, report);
     if (saved.has_contact)
       resumed = std::move(saved);
-    report.progress("resumed from " + restart.source().string());
+    report.print("resumed from " + restart.source().string());
   }
 
   template <int dim> void ContactRun<dim>::load_contact()

@@ -224,7 +224,10 @@ namespace abut::app
       report.add("linearisations", present.linearisations);
     report.add("linear_iterations", present.linear.n_iterations);
     report.add("matvecs", present.linear.n_matvecs);
-    report.progress(model.line_of(present) + state.control.progress());
+    const double end = state.settings.load_steps.end_time;
+    const bool has_steps = state.settings.load_steps.steps > 1;
+    report.progress(model.line_of(present) + state.control.progress(),
+                    has_steps ? present.time / end : std::optional<double>());
   }
 
   template double ContactRun<2>::counted_seconds() const;

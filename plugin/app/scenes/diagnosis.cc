@@ -55,11 +55,10 @@ namespace abut::app
     const bool nitsche = abut_law_needs_stress(method.options.law);
     report.warn(coded(
         nitsche ? ABUT_FAILURE_NITSCHE : ABUT_FAILURE_PENALTY,
-        "Method/Penalty is " + short_number(penalty, 3)
-            + " times the local stiffness, outside of any sensible "
-              "range, "
+        "Method/Penalty factor is " + short_number(penalty, 3)
+            + " times the local stiffness, outside of the sensible range "
             + short_number(softest, 2) + " to " + short_number(stiffest, 2)
-            + ". It has no unit: leave it 0 for the method's own."));
+            + ". It is dimensionless: use auto."));
   }
 
   Message diagnose_solver_failure(const Message &message, const double penalty)
@@ -68,9 +67,9 @@ namespace abut::app
       return message;
     return coded(ABUT_FAILURE_PENALTY,
                  "The penalty of " + short_number(penalty, 2)
-                     + " times the local stiffness leaves too few digits for "
-                       "the rest of the matrix: use a smaller Method/Penalty. "
-                       "What the linear solver said: "
+                     + " times the local stiffness makes the matrix too badly "
+                       "conditioned: use a smaller Method/Penalty factor. "
+                       "Message of the linear solver: "
                      + uncoded(message));
   }
 
@@ -80,24 +79,24 @@ namespace abut::app
     report.set("cycle_length", progress.cycle_length);
     report.add("fallback_steps", progress.fallback_steps);
     if (progress.fallback_steps > 0)
-      report.warn(coded(
-          ABUT_FAILURE_CYCLE,
-          "The set of active rows came back"
-              + (progress.cycle_length > 0
-                     ? " after " + std::to_string(progress.cycle_length)
-                           + " steps"
-                     : std::string())
-              + ", so that " + std::to_string(progress.fallback_steps)
-              + " steps changed one row each. The answer is not worse for it; "
-                "the method interior point has no sets."));
+      report.warn(
+          coded(ABUT_FAILURE_CYCLE,
+                "The active set cycled"
+                    + (progress.cycle_length > 0
+                           ? " after " + std::to_string(progress.cycle_length)
+                                 + " steps"
+                           : std::string())
+                    + ", so that " + std::to_string(progress.fallback_steps)
+                    + " iterations changed one constraint each. The solution "
+                      "is correct; Method/Enforcement = interior point has no "
+                      "active set."));
     if (is_cold && n_layers > many_steps)
-      report.warn(coded(
-          ABUT_FAILURE_COLD_START,
-          std::to_string(progress.step)
-              + " steps from displacement 0: the set changes by a layer of "
-                "nodes in each, and twice as fine a mesh needs twice as many. "
-                "Set Refinement/Nested iteration = true, which starts from "
-                "coarser meshes."));
+      report.warn(
+          coded(ABUT_FAILURE_COLD_START,
+                std::to_string(progress.step)
+                    + " active set iterations from displacement 0; twice as "
+                      "fine a mesh needs twice as many. Set Refinement/Nested "
+                      "iteration = true, which starts from coarser meshes."));
   }
 
   bool diagnose_balance(Report &report, const double imbalance,
@@ -118,22 +117,22 @@ namespace abut::app
     if (penalty > 0.)
       why = "the linear system was not solved to its tolerance. The penalty of "
             + short_number(penalty, 2)
-            + " times the local stiffness leaves too few digits: use a smaller "
-              "Method/Penalty, or augmented lagrangian or lagrange.";
+            + " times the local stiffness makes the matrix too badly "
+              "conditioned: use a smaller Method/Penalty factor, or "
+              "Method/Enforcement = augmented lagrangian or lagrange.";
     else if (by.newton)
-      why = "Newton's method has ended at its tolerance, which other forces "
-            "than these set. Try a smaller Load steps/Newton tolerance"
+      why = "Newton's method has reached its tolerance, which larger forces "
+            "determine. Try a smaller Time stepping/Newton tolerance"
             + (by.factors ? "." : " and " + digits + ".");
     else
-      why = by.factors
-                ? std::string("round-off, since the direct solver leaves no "
-                              "more. The matrix is badly conditioned: look for "
-                              "a body that is hardly supported, stiffnesses "
-                              "that differ by many orders of magnitude, thin "
-                              "cells, or contact forces that are tiny beside "
-                              "the other forces.")
-                : "the linear system was not solved to its tolerance. Try "
-                      + digits + " or Solver/Linear solver = direct.";
+      why =
+          by.factors
+              ? std::string("round-off: the matrix is badly conditioned. Check "
+                            "for a weakly supported body, stiffnesses that "
+                            "differ by many orders of magnitude, thin cells, "
+                            "and contact forces far below the other forces.")
+              : "the linear system was not solved to its tolerance. Try "
+                    + digits + " or Solver/Linear solver = direct.";
     const Message text =
         coded(penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
               seen + why);
@@ -168,19 +167,18 @@ namespace abut::app
     const Message text = coded(
         is_soft ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_UNBALANCED,
         "Twice the energy, " + short_number(works.stored, 4)
-            + ", is not the work of loads, supports and contact on its initial "
-              "gaps: it is off by "
+            + ", differs from the work of loads, supports and contact by "
             + short_number(100. * part, 2) + " %. "
-            + (!is_law ? "Forces are not in balance where the body moves: use "
-                         "a smaller Method/Final linear tolerance, or "
-                         "Solver/Linear solver = direct."
+            + (!is_law
+                   ? "Forces are not in balance: use a smaller Method/Final "
+                     "linear tolerance, or Solver/Linear solver = direct."
                : works.open_gaps > 0.
-                   ? "Contact pushes across gaps that are open: use a smaller "
-                     "Method/Barrier end or Gap tolerance, or the method "
-                     "lagrange."
-                   : "Contact lets bodies penetrate: use a larger "
-                     "Method/Penalty or a smaller Gap tolerance, or the "
-                     "method lagrange."));
+                   ? "Contact acts across open gaps: use a smaller "
+                     "Method/Barrier end or Gap tolerance, or "
+                     "Method/Enforcement = lagrange."
+                   : "Contact allows penetration: use a larger Method/Penalty "
+                     "factor or a smaller Gap tolerance, or Method/Enforcement "
+                     "= lagrange."));
     return ContactFinding(text, part > useless_work);
   }
 
@@ -204,18 +202,18 @@ namespace abut::app
     const std::string seen =
         order > least_order
             ? "The energy converges with order " + short_number(order, 2)
-                  + " in the size of the cells, where smooth data gives 2; the "
-                    "last mesh misses some "
+                  + " in the cell size (smooth data: 2); the error of the last "
+                    "mesh is about "
                   + short_number(100. * missing, 2) + " % of it."
-            : "The energy does not settle: the last mesh changed it by "
+            : "The energy does not converge: the last mesh changed it by "
                   + short_number(100. * std::abs(last / energies[n - 1]), 2)
-                  + " %, no less than the one before.";
-    report.warn(coded(
-        ABUT_FAILURE_SINGULAR,
-        seen
-            + " Corners of bodies, edges of punches, ends of supports and "
-              "loads, and data that jumps or changes within a cell slow it "
-              "down; Refinement/Adaptive cycles refines there alone."));
+                  + " %, as much as the mesh before.";
+    report.warn(
+        coded(ABUT_FAILURE_SINGULAR,
+              seen
+                  + " Reasons are corners of bodies and punches, ends of "
+                    "supports and loads, and data that jump within a cell. "
+                    "Refinement/Adaptive cycles refines there only."));
   }
 
   void diagnose_condition(Report &report, const double condition,
@@ -227,16 +225,16 @@ namespace abut::app
     examined(report, "condition", condition, large_condition, no_limit);
     if (condition <= large_condition)
       return;
-    const std::string seen = "Conjugate gradients met a condition number of "
+    const std::string seen = "Conjugate gradients found a condition number of "
                              + short_number(condition, 2)
                              + " although the matrix was " + "preconditioned. ";
     report.warn(
         penalty > 0.
             ? coded(ABUT_FAILURE_PENALTY,
                     seen + "The penalty of " + short_number(penalty, 2)
-                        + " times the local stiffness is beyond multigrid: "
-                          "leave Solver/Contact filter on, or use a smaller "
-                          "Method/Penalty.")
+                        + " times the local stiffness is too large for "
+                          "multigrid: set Solver/Contact filter = true, or use "
+                          "a smaller Method/Penalty factor.")
             : coded(ABUT_FAILURE_LINEAR_SOLVER,
                     seen + "Try Solver/Linear solver = direct."));
   }

@@ -4,6 +4,8 @@
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 namespace abut::app
 {
@@ -14,31 +16,30 @@ namespace abut::app
                                   const std::string &failing_steps)
   {
     TimeParameters::declare(prm, schemes, failing_steps);
-    prm.enter_subsection("Time");
-    prm.declare_entry("Mass", "auto",
-                      Patterns::Selection("auto|modified|consistent|lumped"),
-                      "Where mass sits: modified takes it from the nodes of "
-                      "secondary surfaces, or of contact on a membrane's "
-                      "boundary, and hands it to their neighbours inside, so "
-                      "that impacts neither gain energy "
-                      "nor ring; consistent is that of the elements, lumped "
-                      "its row sums at the nodes. auto: what the scheme is "
-                      "made for, which is modified, but consistent for contact "
-                      "stabilised and lumped for explicit schemes.");
-    prm.declare_entry("Mass damping", "0", NumberPattern::from(0.),
-                      "Rayleigh damping: forces of this number (per time) "
-                      "times mass times velocity.");
-    prm.declare_entry("Stiffness damping", "0", NumberPattern::from(0.),
-                      "Rayleigh damping: forces of this time times stiffness "
-                      "times velocity.");
+    prm.enter_subsection("Time stepping");
+    parameter::declare(
+        prm, "Mass matrix", "auto",
+        Patterns::Selection("auto|modified|consistent|lumped"),
+        parameter::advanced(),
+        "Mass matrix. consistent: of the elements. lumped: row sums at the "
+        "nodes. modified: nodes of secondary surfaces (membrane: of "
+        "`Contact/Boundary ids`) have no mass, their inner neighbours have it; "
+        "impacts then neither gain energy nor oscillate. auto: lumped for "
+        "explicit schemes, consistent for contact stabilised, else modified.");
+    parameter::declare(prm, "Mass damping", "0", NumberPattern::from(0.),
+                       parameter::advanced("1/time", "0.1"),
+                       "Rayleigh damping: factor of mass times velocity.");
+    parameter::declare(prm, "Stiffness damping", "0", NumberPattern::from(0.),
+                       parameter::advanced("time", "1e-4"),
+                       "Rayleigh damping: factor of stiffness times velocity.");
     prm.leave_subsection();
   }
 
   void InertiaParameters::parse(dealii::ParameterHandler &prm)
   {
     TimeParameters::parse(prm);
-    prm.enter_subsection("Time");
-    const std::string word = prm.get("Mass");
+    prm.enter_subsection("Time stepping");
+    const std::string word = prm.get("Mass matrix");
     mass_damping = prm.get_double("Mass damping");
     stiffness_damping = prm.get_double("Stiffness damping");
     prm.leave_subsection();
@@ -54,21 +55,20 @@ namespace abut::app
   {
     check_mass(mass);
     if (stiffness_damping > 0. && mass == ABUT_TIME_MASS_MODIFIED)
-      throw InputError("Time/Stiffness damping",
-                       "nodes without mass have no velocity of their own that "
-                       "could be damped: set Time/Mass = consistent or "
-                       "lumped.");
+      throw InputError("Time stepping/Stiffness damping",
+                       "nodes without mass have no velocity to damp: set Time "
+                       "stepping/Mass matrix = consistent or lumped.");
     if (stiffness_damping > 0. && scheme.beta == 0.)
-      throw InputError("Time/Stiffness damping",
+      throw InputError("Time stepping/Stiffness damping",
                        std::string(scheme.name)
-                           + " would need shorter steps for it: use Time/Mass "
-                             "damping, or hht.");
+                           + " would need smaller steps with it: use Time "
+                             "stepping/Mass damping, or Scheme = hht.");
   }
 
   void InertiaParameters::fit(RefinementParameters &refinement) const
   {
-    const std::string why = "the mesh of a motion stays as it is; set "
-                            "Time/Scheme = none, or no ";
+    const std::string why = "the mesh does not change in dynamics; set Time "
+                            "stepping/Scheme = quasi-static, or no ";
     if (refinement.adaptive_cycles > 0)
       throw InputError("Refinement/Adaptive cycles", why + "cycles.");
     if (refinement.has_target())

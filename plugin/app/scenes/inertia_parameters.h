@@ -9,7 +9,7 @@
 
 namespace abut::app
 {
-  /** Section `Time` of scenes with meshes. */
+  /** Section `Time stepping` of scenes with meshes. */
   struct InertiaParameters : TimeParameters
   {
     abut_time_mass mass = ABUT_TIME_MASS_MODIFIED;

@@ -32,12 +32,12 @@ namespace abut::app
         return;
       const std::string name =
           abut_law_needs_open_start(o.law) ? "a larger Method/Barrier end"
-          : abut_law_solves_once(o.law)    ? "a smaller Method/Penalty"
+          : abut_law_solves_once(o.law)    ? "a smaller Method/Penalty factor"
                                            : "a larger Method/Gap tolerance";
-      report.leave_out("exactness of the contact law: its error is about "
+      report.leave_out("accuracy of the contact law: its error is about "
                        + short_number(law_error, 2) + " where "
-                       + short_number(target, 2) + " is asked for; " + name
-                       + " would do.");
+                       + short_number(target, 2) + " is required; " + name
+                       + " suffices.");
     }
   } // namespace
 
@@ -46,27 +46,26 @@ namespace abut::app
   {
     if (!control.is_on())
     {
-      report.leave_out("accuracy: without Refinement/Target error all digits "
-                       "are taken to be wanted. With it the meshes, the "
-                       "contact law and the tolerances become only as fine as "
-                       "it needs.");
+      report.leave_out("accuracy: without Refinement/Target error the "
+                       "tolerances are tight. With it meshes, contact law and "
+                       "tolerances are only as fine as needed.");
       return;
     }
     const double target = refinement.target_error;
     const ErrorParts &errors = control.errors();
     if (errors.total() < mesh_excess * target)
-      report.leave_out("the finest mesh: the error is about "
-                       + short_number(errors.total(), 2) + " where "
-                       + short_number(target, 2)
-                       + " is asked for; begin with a smaller "
-                         "Refinement/Coarsest level.");
+      report.leave_out(
+          "the finest mesh: the error is about "
+          + short_number(errors.total(), 2) + " where "
+          + short_number(target, 2)
+          + " is required; start with a smaller Refinement/Coarsest level.");
     explain_law(report, target, errors.contact, control.method());
     if (errors.algebraic < solver_excess * target)
-      report.leave_out("digits of the linear systems: they leave an error of "
-                       + short_number(errors.algebraic, 2) + " where "
-                       + short_number(target, 2)
-                       + " is asked for; a larger Method/Final linear "
-                         "tolerance would do.");
+      report.leave_out(
+          "accuracy of the linear systems: their error is "
+          + short_number(errors.algebraic, 2) + " where "
+          + short_number(target, 2)
+          + " is required; a larger Method/Final linear tolerance suffices.");
   }
 
   void explain_steps(Report &report, const RefinementParameters &refinement,
@@ -80,9 +79,9 @@ namespace abut::app
     const std::string count = std::to_string(n_steps) + " linear systems on "
                               + std::to_string(n_meshes) + " meshes; ";
     if (!refinement.nested)
-      report.leave_out("steps from a far start: " + count
-                       + "Refinement/Nested iteration = true begins near the "
-                         "answer.");
+      report.leave_out(
+          "steps from a far start: " + count
+          + "Refinement/Nested iteration = true starts near the solution.");
     else if (!simplest)
       report.leave_out("outer steps: " + count + "Method/Enforcement = auto "
                        + "needs about "

@@ -69,9 +69,8 @@ namespace abut::app
       finding.is_error = !has_begun;
       finding.text =
           worst.text
-          + (has_begun ? " They have only begun to touch in the last step."
-                       : " In no step does contact press more than that can "
-                         "show.");
+          + (has_begun ? " First contact was in the last step."
+                       : " Contact is weaker than that in all steps.");
       step.findings.push_back(finding);
     }
   }

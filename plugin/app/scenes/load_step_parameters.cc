@@ -2,6 +2,8 @@
 #include "load_step_parameters.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 namespace abut::app
 {
@@ -14,41 +16,48 @@ namespace abut::app
   void LoadStepParameters::declare(dealii::ParameterHandler &prm)
   {
     namespace Patterns = dealii::Patterns;
-    prm.enter_subsection("Load steps");
-    prm.declare_entry("Steps", "1", Patterns::Integer(1, most_load_steps),
-                      "Number of equal steps from time 0 to the end. The time "
-                      "is the t of all formulas; in one step all loads are "
-                      "applied at once.");
-    prm.declare_entry("End time", "1", NumberPattern::positive(),
-                      "Time of the last step.");
-    prm.declare_entry("Cut back", "true", Patterns::Bool(),
-                      "Halve a step that finds no answer, and try again; "
-                      "later steps grow to their length again.");
-    prm.declare_entry("Smallest step", "1e-3",
-                      NumberPattern({nullptr, 0., 1., true, false}),
-                      "Length of a step, as part of the whole time, below "
-                      "which a failure ends the run; of a motion as part of "
-                      "Time/Step.");
-    prm.declare_entry("Newton steps", "20", Patterns::Integer(1),
-                      "Of large strain: linearisations after which a step has "
-                      "found no answer. After one that needed more than half "
-                      "of them the next is half as long.");
-    prm.declare_entry("Newton tolerance", "1e-8",
-                      NumberPattern({nullptr, 1e-14, 1., false, true}),
-                      "Of large strain: error of the iteration relative to the "
-                      "displacement, in the energy norm; of motions a "
-                      "hundredth of that, or what round-off leaves.");
+    prm.enter_subsection("Time stepping");
+    parameter::declare(
+        prm, "Number of steps", "1", Patterns::Integer(1, most_load_steps),
+        parameter::basic("1", "10"),
+        "Number of equal load steps from t = 0 to `End time`, for `Scheme = "
+        "quasi-static`. With 1 step all loads are applied at once.");
+    parameter::declare(prm, "End time", "1", NumberPattern::positive(),
+                       parameter::basic("time", "2"),
+                       "Time t at the end of the last step. Loads, prescribed "
+                       "displacements and motions are formulas in t.");
+    parameter::declare(prm, "Cut back", "true", Patterns::Bool(),
+                       parameter::advanced(),
+                       "Whether a step without a solution is halved and "
+                       "repeated. Later steps grow to the full length again.");
+    parameter::declare(
+        prm, "Smallest step", "1e-3",
+        NumberPattern({nullptr, 0., 1., true, false}),
+        parameter::expert("1", "1e-4"),
+        "Length of a step below which a failure ends the run, relative to `End "
+        "time`; in dynamics relative to `Step size`.");
+    parameter::declare(
+        prm, "Maximum Newton iterations", "20", Patterns::Integer(1),
+        parameter::advanced("1", "30"),
+        "Finite strain: Newton iterations after which a step has failed. After "
+        "a step with more than half of them the next step is half as long.");
+    parameter::declare(
+        prm, "Newton tolerance", "1e-8",
+        NumberPattern({nullptr, 1e-14, 1., false, true}),
+        parameter::advanced("1", "1e-10"),
+        "Finite strain: error of Newton's method relative to the displacement, "
+        "in the energy norm. In dynamics a hundredth of it, or round-off.");
     prm.leave_subsection();
   }
 
   void LoadStepParameters::parse(dealii::ParameterHandler &prm)
   {
-    prm.enter_subsection("Load steps");
-    steps = prm.get_integer("Steps");
+    prm.enter_subsection("Time stepping");
+    steps = prm.get_integer("Number of steps");
     end_time = prm.get_double("End time");
     cut_back = prm.get_bool("Cut back");
     smallest_step = prm.get_double("Smallest step");
-    newton_steps = prm.get_integer("Newton steps");
+    newton_steps = prm.get_integer("Maximum Newton iterations");
     newton_tolerance = prm.get_double("Newton tolerance");
     prm.leave_subsection();
   }

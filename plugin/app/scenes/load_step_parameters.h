@@ -8,7 +8,7 @@
 
 namespace abut::app
 {
-  /** Section `Load steps`: the way from time 0 to the end. */
+  /** Section `Time stepping`: the way from time 0 to the end. */
   struct LoadStepParameters : LoadStepOptions
   {
     /** Linearisations of a step of large strain after which it has failed. */

@@ -8,6 +8,7 @@
 #include "common_parameters.h"
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 
 #include <sstream>
 #include <utility>
@@ -51,6 +52,7 @@ namespace abut::app
     scene->count(file);
     declare_all(prm, scene_kind, *scene);
     declared = file.apply(prm);
+    old_words = file.old_words(declared);
   }
 
   void LoadedScene::find_law()
@@ -99,6 +101,7 @@ namespace abut::app
     {
       throw blamed(dealii_message(error));
     }
+    expected = parse_expected(get("Output", "Expected"));
     not_used =
         values_without_effect(scene->effects(), SceneValues(declared, file));
   }
@@ -111,8 +114,47 @@ namespace abut::app
       report.set("title", title);
     if (dimension > 0)
       report.set("dimension", dimension);
+    const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(report.communicator);
+    report.print(
+        file.name() + ": " + (title.empty() ? "" : title + ", ")
+        + "scene of kind " + scene_kind.name
+        + (dimension > 0 ? " in " + std::to_string(dimension) + "D" : "")
+        + (n_ranks > 1 ? ", " + std::to_string(n_ranks) + " ranks" : ""));
+    for (const ExpectedFigure &figure : expected)
+      report.expect(figure.key, figure.value);
     for (const std::string &line : not_used)
       report.not_used(line);
+    std::string old;
+    for (const std::string &line : old_words)
+      old += (old.empty() ? "old names: " : "; ") + line;
+    if (!old.empty())
+      report.progress(old + ".");
+  }
+
+  std::string LoadedScene::parameters_json() const
+  {
+    std::ostringstream out;
+    JsonWriter json(out);
+    json.begin();
+    json.value("scene", file.name());
+    json.value("file", file.path());
+    json.value("kind", std::string(kind()));
+    json.value("dimension", static_cast<std::int64_t>(dimension));
+    json.begin("parameters");
+    const auto given = file.values();
+    for (const DeclaredParameter &parameter : declared)
+    {
+      json.begin(parameter.path);
+      json.value("value", parameter.value);
+      json.value("default", parameter.default_value);
+      json.value("given", given.count(parameter.path) > 0);
+      json.value("origin", file.origin(parameter.path));
+      json.end();
+    }
+    json.end();
+    json.end();
+    return out.str();
   }
 
   void LoadedScene::write_parameters(const std::filesystem::path &folder) const
@@ -147,8 +189,10 @@ namespace abut::app
     RunIdentity result = program_identity();
     for (const DeclaredParameter &parameter : declared)
     {
-      // How often checkpoints are written changes no result.
-      if (parameter.path.rfind("Checkpoint/", 0) == 0)
+      // How often checkpoints are written, and what results are compared with,
+      // changes none.
+      if (parameter.path.rfind("Checkpoint/", 0) == 0
+          || parameter.path == "Output/Expected")
         continue;
       result[parameter.path] = parameter.value;
       const std::string content = content_of(options, parameter.value);
@@ -161,14 +205,6 @@ namespace abut::app
   const char *LoadedScene::kind() const
   {
     return scene_kind.name;
-  }
-
-  bool LoadedScene::declares(const std::string &path) const
-  {
-    for (const DeclaredParameter &parameter : declared)
-      if (parameter.path == path)
-        return true;
-    return false;
   }
 
   std::string LoadedScene::get(const std::string &section,

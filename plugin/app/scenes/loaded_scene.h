@@ -28,9 +28,9 @@ namespace abut::app
     /** Write what is known before the solve. */
     void describe(Report &report) const;
 
-    /** Write the scene with all its parameters as `parameters.json`: value and
-     * default of each, and where the value is from. Not collective. */
-    void write_parameters(const std::filesystem::path &folder) const;
+    /** The scene with all its parameters: value and default of each, and where
+     * the value is from. */
+    std::string parameters_json() const;
 
     /** What a run must have in common with one that it goes on with: program,
      * parameters, and content of the files that these name. */
@@ -38,9 +38,6 @@ namespace abut::app
 
     /** Name of the kind of the scene. */
     const char *kind() const;
-
-    /** Whether the scene has a parameter of this name. */
-    bool declares(const std::string &path) const;
 
     /** Value of a parameter of section @p section. */
     std::string get(const std::string &section, const std::string &name);
@@ -56,7 +53,9 @@ namespace abut::app
     void find_law();
 
     const SceneKind &scene_kind;
-    std::vector<std::string> not_used; ///< values that this run does not use
+    std::vector<std::string> not_used;  ///< values that this run does not use
+    std::vector<std::string> old_words; ///< given, with those of today
+    std::vector<ExpectedFigure> expected;
     unsigned int dimension;
     dealii::ParameterHandler prm;
     std::vector<DeclaredParameter> declared; ///< with their values

@@ -103,20 +103,25 @@ namespace abut::app
     return law == nullptr || holds(*law);
   }
 
-  EffectRules law_effects()
+  EffectRules law_effects(const bool may_have_friction)
   {
     const auto is_user = [](const SceneValues &values)
     { return values("Method/Enforcement") == "user"; };
     const std::string user = "it belongs to Method/Enforcement = user.";
     return {
         setting("Method/Law *", is_user, user),
-        setting("Method/Friction *", has_friction, "nothing has friction."),
+        may_have_friction
+            ? setting("Method/Friction *", has_friction,
+                      "there is no friction.")
+            : never_effective("Method/Friction *", Weight::setting,
+                              "there is no friction."),
         setting(
             "Method/Friction parameters",
             [](const SceneValues &values)
             { return values.is_set("Method/Friction file"); },
-            "they are those of a law of your own: give Method/Friction file."),
-        of_laws("Penalty",
+            "they belong to a friction law of your own: set Method/Friction "
+            "file."),
+        of_laws("Penalty factor",
                 "penalty, quadratic penalty, augmented lagrangian or nitsche",
                 has_penalty),
         of_laws("Nitsche theta", "nitsche", needs_stress),
@@ -143,12 +148,12 @@ namespace abut::app
 
   EffectRules no_discretisation(const std::string &instead)
   {
-    const auto never = [](const SceneValues &) { return false; };
     EffectRules rules = {
-        effective_if("Method/Multiplier degree", Weight::data, never, instead)};
+        never_effective("Method/Multiplier degree", Weight::data, instead)};
     for (const char *name : {"Discretisation", "Quadrature degree", "Segments",
-                             "Sliding", "Turning terms"})
-      rules.push_back(setting(std::string("Method/") + name, never, instead));
+                             "Contact geometry", "Geometric contact tangent"})
+      rules.push_back(never_effective(std::string("Method/") + name,
+                                      Weight::setting, instead));
     return rules;
   }
 
@@ -171,7 +176,7 @@ namespace abut::app
                      && law_may_be(values, [](const abut_law &law)
                                    { return abut_law_is_exact(&law); });
             },
-            "it belongs to iterative solvers of saddle points.")};
+            "it belongs to iterative solvers of saddle point systems.")};
     for (const char *name : {"Maximum iterations", "Aggregation threshold",
                              "Smoother sweeps", "Contact filter"})
       rules.push_back(
@@ -191,12 +196,12 @@ namespace abut::app
         setting(
             "Refinement/Level",
             [](const SceneValues &values) { return !has_target(values); },
-            "with Refinement/Target error meshes begin at "
-            "Refinement/Coarsest level."),
+            "with Refinement/Target error meshes start at Refinement/Coarsest "
+            "level."),
         setting(
             "Refinement/Adaptive cycles",
             [](const SceneValues &values) { return !has_target(values); },
-            "Refinement/Target error decides how many there are."),
+            "Refinement/Target error determines their number."),
         setting("Refinement/Coarse level tolerance", has_several_meshes,
                 "there is one mesh."),
         setting("Refinement/Refine fraction", is_adaptive,
@@ -204,7 +209,7 @@ namespace abut::app
         setting("Refinement/Coarsen fraction", is_adaptive,
                 "it belongs to Refinement/Adaptive cycles or Target error."),
         setting("Refinement/Target quantity", has_target, target),
-        setting("Refinement/Most meshes", has_target, target),
+        setting("Refinement/Maximum meshes", has_target, target),
     };
   }
 
@@ -220,7 +225,7 @@ namespace abut::app
 
   EffectRules mesh_effects(const std::string &section)
   {
-    const std::string why = "meshes are made once, before any motion.";
+    const std::string why = "meshes are created once, at t = 0.";
     EffectRules rules = {without_time(section + "/Boundary ids", why),
                          without_time(section + "/Map", why)};
     for (const char *name : {"/Generator", "/Arguments"})
@@ -233,28 +238,29 @@ namespace abut::app
                                     : "the mesh is read from the file that "
                                           + file + " names.";
                        }});
-    rules.push_back(
-        {section + "/Curved sides", Weight::addition,
-         [](const SceneValues &values, const std::string &path)
-         {
-           // Surfaces have their own number of refinements beside this one;
-           // bodies are refined with the scene, and before by their own.
-           const std::string section = section_of(path),
-                             own = values(section + "/Refinements");
-           const bool refined =
-               own.empty()
-                   ? is_adaptive(values)
-                         || values.number("Refinement/Level") > 0.
-                         || values.number(section_of(section) + "/Refinements")
-                                > 0.
-                   : values.number(section + "/Refinements") > 0.;
-           const std::string by =
-               own.empty() ? "Refinement/Level" : "Refinements";
-           return refined ? std::string()
-                          : "the mesh is used as it is made, with straight "
-                            "facets: refine it ("
-                                + by + ").";
-         }});
+    rules.push_back({section + "/Curved sides", Weight::addition,
+                     [](const SceneValues &values, const std::string &path)
+                     {
+                       // Surfaces have their own number of refinements beside
+                       // this one; bodies are refined with the scene, and
+                       // before by their own.
+                       const std::string section = section_of(path),
+                                         own = values(section + "/Refinements");
+                       const bool refined =
+                           own.empty()
+                               ? is_adaptive(values)
+                                     || values.number("Refinement/Level") > 0.
+                                     || values.number(section_of(section)
+                                                      + "/Refinements")
+                                            > 0.
+                               : values.number(section + "/Refinements") > 0.;
+                       const std::string by =
+                           own.empty() ? "Refinement/Level" : "Refinements";
+                       return refined ? std::string()
+                                      : "the mesh is not refined and keeps "
+                                        "straight facets: refine it ("
+                                            + by + ").";
+                     }});
     return rules;
   }
 

@@ -20,7 +20,7 @@ namespace abut::app
                   const std::function<bool(const abut_law &law)> &holds);
 
   /** Section `Method`, by law. */
-  EffectRules law_effects();
+  EffectRules law_effects(bool may_have_friction = true);
 
   /** Section `Method`: how contact between surfaces is written down, in scenes
    * that have none; @p instead says how contact acts there. */

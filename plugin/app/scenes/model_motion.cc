@@ -112,7 +112,7 @@ namespace abut::app
       run.report.warn(coded(ABUT_FAILURE_BLOW_UP,
                             "the time step is above the limit of the scheme, "
                                 + short_number(limit, 4)
-                                + ": make Time/Step smaller"));
+                                + ": make Time stepping/Step size smaller"));
   }
 
   template <int dim> double ModelMotion<dim>::step_length() const
@@ -236,11 +236,12 @@ namespace abut::app
     const std::string scheme = time.scheme.name;
     if (words.stops ? scheme == "contact stabilised"
                     : scheme == "hht" && time.mass == ABUT_TIME_MASS_MODIFIED)
-      return "Use a shorter Time/Step: it is long beside an impact.";
-    return std::string("Use Time/Scheme = ")
+      return "Use a smaller Time stepping/Step size: it is long relative to an "
+             "impact.";
+    return std::string("Use Time stepping/Scheme = ")
            + (words.stops ? "contact stabilised"
-                          : "hht with Time/Mass = modified")
-           + ", or a shorter Time/Step.";
+                          : "hht with Time stepping/Mass matrix = modified")
+           + ", or a smaller Time stepping/Step size.";
   }
 
   template <int dim>
@@ -270,11 +271,11 @@ namespace abut::app
     const std::vector<PairCheck> checks = run.contact.checks().pairs();
     if (const PairCheck *const found = overlap_of(checks))
       return coded(ABUT_FAILURE_OVERLAP,
-                   judgement + "The first step made most of it: surfaces of "
+                   judgement + "The first step caused most of it: surfaces of "
                        + found->name + " overlap by "
                        + short_number(found->first_overlap, 3)
-                       + " before anything moves, and are thrown apart. Begin "
-                         "where they are apart.");
+                       + " at the start and are pushed apart. Start without "
+                         "penetration.");
     return coded(failure, judgement + cure_of_gain());
   }
 
@@ -330,8 +331,9 @@ namespace abut::app
       return explain_gain(ABUT_FAILURE_BLOW_UP,
                           what + "the motion is unstable. ");
     if (!has_warned)
-      run.report.warn(explain_gain(ABUT_FAILURE_ENERGY_GAIN,
-                                   what + "more than the scheme may gain. "));
+      run.report.warn(
+          explain_gain(ABUT_FAILURE_ENERGY_GAIN,
+                       what + "more than the limit of the scheme. "));
     has_warned = true;
     return "";
   }

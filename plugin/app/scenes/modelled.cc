@@ -14,7 +14,7 @@ namespace abut::app
                                            "large, until the target is met"
                  : refinement.adaptive_cycles > 0
                      ? "refined where the estimate is large"
-                     : "no Adaptive cycles were asked for",
+                     : "Refinement/Adaptive cycles is 0",
                  {"error estimate"});
   }
 
@@ -30,7 +30,7 @@ namespace abut::app
 
   void model_files(Report &report, const bool are_written)
   {
-    report.model("files", are_written,
-                 "fields and pictures as section Output asks", {"output"});
+    report.model("files", are_written, "fields and pictures by section Output",
+                 {"output"});
   }
 } // namespace abut::app

@@ -9,30 +9,33 @@ namespace abut::app
     EffectRule of_scheme(const std::string &name, const std::string &scheme)
     {
       return effective_if(
-          "Time/" + name, Weight::data,
+          "Time stepping/" + name, Weight::data,
           [scheme](const SceneValues &values)
-          { return values("Time/Scheme") == scheme; },
-          "it belongs to Time/Scheme = " + scheme + ".");
+          { return values("Time stepping/Scheme") == scheme; },
+          "it belongs to Time stepping/Scheme = " + scheme + ".");
     }
   } // namespace
 
   bool has_motion(const SceneValues &values)
   {
-    return values("Time/Scheme") != "none";
+    return values("Time stepping/Scheme") != "quasi-static";
   }
 
   EffectRules motion_effects(const std::vector<std::string> &data_of_motion,
                              const std::string &first)
   {
-    const std::string at_rest = "nothing moves: Time/Scheme is none. " + first
-                                + " is the one to begin with.";
+    const std::string at_rest =
+        "it belongs to dynamics, and Time stepping/Scheme is quasi-static. "
+        + first + " is a good first choice.";
     EffectRules rules = {
-        of_scheme("Alpha", "hht"),
-        of_scheme("Rho infinity", "generalised alpha"),
-        of_scheme("Beta", "newmark"), of_scheme("Gamma", "newmark"),
+        of_scheme("HHT alpha", "hht"),
+        of_scheme("Generalised alpha spectral radius", "generalised alpha"),
+        of_scheme("Newmark beta", "newmark"),
+        of_scheme("Newmark gamma", "newmark"),
         effective_if("Output/Every", Weight::setting, has_motion, at_rest)};
-    std::vector<std::string> names = {"Time/Step", "Time/End", "Time/Mass*",
-                                      "Time/Stiffness damping"};
+    std::vector<std::string> names = {
+        "Time stepping/Step size", "Time stepping/Mass *",
+        "Time stepping/Mass matrix", "Time stepping/Stiffness damping"};
     names.insert(names.end(), data_of_motion.begin(), data_of_motion.end());
     for (const std::string &name : names)
       rules.push_back(effective_if(name, Weight::data, has_motion, at_rest));
@@ -42,7 +45,7 @@ namespace abut::app
       rules.push_back(effective_if(
           name, Weight::setting,
           [](const SceneValues &values) { return !has_motion(values); },
-          "a motion begins on the mesh that it ends on."));
+          "dynamics uses one mesh."));
     return rules;
   }
 } // namespace abut::app

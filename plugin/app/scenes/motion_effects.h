@@ -6,10 +6,11 @@
 
 namespace abut::app
 {
-  /** Whether Time/Scheme has what has mass move. */
+  /** Whether Time stepping/Scheme has what has mass move. */
   bool has_motion(const SceneValues &values);
 
-  /** Section `Time` of scenes with meshes, and what a motion changes in others.
+  /** Section `Time stepping` of scenes with meshes, and what a motion changes
+   * in others.
    * @param data_of_motion parameters without effect at rest
    * @param first the scheme to begin with */
   EffectRules motion_effects(const std::vector<std::string> &data_of_motion,

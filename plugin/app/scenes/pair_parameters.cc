@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "pair_parameters.h"
 
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 namespace abut::app
 {
@@ -19,58 +20,70 @@ namespace abut::app
   {
     namespace Patterns = dealii::Patterns;
     prm.enter_subsection(section);
-    prm.declare_entry("Secondary", "", Patterns::Anything(),
-                      "The surface that carries the constraints, usually the "
-                      "finer and softer one: a body and its boundary ids, `1: "
-                      "3, 4`; several bodies are separated by ';'. Names may "
-                      "stand for both: `plate: top`.");
-    prm.declare_entry("Primary", "", Patterns::Anything(),
-                      "The surface that it may touch, written like "
-                      "`Secondary`; empty with an obstacle. The same as "
-                      "`Secondary`: a surface that may touch itself.");
-    prm.declare_entry("Obstacle", "0", Patterns::Integer(0),
-                      "Number of the rigid obstacle (section `Obstacle N`) "
-                      "that takes the place of a primary surface; 0: none.");
-    prm.declare_entry("Initial gap", "0", FormulaPattern::one(),
-                      "Added to the gap of the meshes: a length or a formula "
-                      "in t. Positive: clearance, negative: interference. Of "
-                      "an obstacle of kind height it is along the axis where "
-                      "its gap is. A clearance must leave something of a "
-                      "bounded obstacle and of the bodies of a pair: it is "
-                      "smaller than half of what the first and than what the "
-                      "second are thick.");
-    prm.declare_entry("Mesh gap", "true", Patterns::Bool(),
-                      "Whether the gap between the meshes counts. If not, "
-                      "`Initial gap` is all of it: for curved surfaces that "
-                      "fit, whose facets do not, and that slide a little "
-                      "(`Method/Sliding = small`).");
-    prm.declare_entry("Tied", "false", Patterns::Bool(),
-                      "Glue the surfaces together where they are opposite to "
-                      "each other.");
-    prm.declare_entry("Friction", "0", FormulaPattern::one(),
-                      "Coefficient of Coulomb friction: a number or a formula "
-                      "of the undeformed place (with `Method/Sliding = step`, "
-                      "as of what flies, of that at the beginning of the step) "
-                      "and t; 0: none.");
-    prm.declare_entry("Largest friction", "", FormulaPattern::one(),
-                      "Bound of the traction along the surface, force per "
-                      "area, a number or a formula like `Friction`; with a "
-                      "large coefficient this is Tresca's law. Empty: none.");
-    prm.declare_entry("Reach", "0", NumberPattern::between(0., largest_reach),
-                      "Distance within which the surfaces look for each other; "
-                      "0: half a facet, or more when they move more, or when "
-                      "nothing nearer stops bodies without supports.");
-    prm.declare_entry("Closed form", "", Patterns::Anything(),
-                      "Name of a solution from theory, such as `Hertz`, that "
-                      "pictures of a plane scene show beside the computed "
-                      "tractions.");
-    prm.declare_entry("Closed form of pressure", "", Patterns::Anything(),
-                      "Its pressure at the points of the secondary surface, "
-                      "force per area: a formula in x, y, t and the forces of "
-                      "the run on the secondary surface, Fx, Fy in all and Qx, "
-                      "Qy of friction. Empty: none.");
-    prm.declare_entry("Closed form of friction", "", Patterns::Anything(),
-                      "Its traction along the surface, likewise.");
+    parameter::declare(
+        prm, "Secondary", "", TextPattern("a list of surfaces"),
+        parameter::basic("", "1: 3, 4"),
+        "Surface that carries the constraints (slave), usually the finer and "
+        "softer one: body and boundary ids, by number or name. Several bodies "
+        "are separated by semicolons.");
+    parameter::declare(prm, "Primary", "", TextPattern("a list of surfaces"),
+                       parameter::basic("", "plate: top"),
+                       "Surface that must not be penetrated (master), in the "
+                       "form of `Secondary`. Empty with an obstacle. The same "
+                       "as `Secondary`: self contact.");
+    parameter::declare(prm, "Obstacle", "none",
+                       OrWord(Patterns::Integer(1), "none"),
+                       parameter::basic("", "1"),
+                       "Number N of the rigid obstacle (section `Obstacle N`) "
+                       "that replaces the primary surface.");
+    parameter::declare(
+        prm, "Initial gap", "0", TextPattern::formula(),
+        parameter::basic("length", "-0.01*t"),
+        "Length that is added to the gap of the meshes, a formula in t. "
+        "Positive: clearance; negative: interference. Must be smaller than "
+        "half of the obstacle's thickness and than the thickness of the "
+        "bodies. Obstacles of kind height: along `Gap along`.");
+    parameter::declare(
+        prm, "Use mesh gap", "true", Patterns::Bool(), parameter::advanced(),
+        "Whether the gap between the meshes counts. false: the gap is `Initial "
+        "gap` alone, for curved surfaces that fit in the reference "
+        "configuration although their facets do not. Needs `Method/Contact "
+        "geometry = reference`.");
+    parameter::declare(prm, "Tied", "false", Patterns::Bool(),
+                       parameter::basic(),
+                       "Whether the surfaces are glued together.");
+    parameter::declare(
+        prm, "Friction", "0", TextPattern::formula(),
+        parameter::basic("1", "0.3"),
+        "Coefficient of Coulomb friction: a number, or a formula in x, y, z, t "
+        "(reference coordinates; with `Method/Contact geometry = start of "
+        "step` those at the start of the step). 0: frictionless.");
+    parameter::declare(prm, "Largest friction", "", TextPattern::formula(),
+                       parameter::advanced("force/length^2", "50"),
+                       "Limit of the tangential traction: a number, or a "
+                       "formula like `Friction`. With a large coefficient this "
+                       "is Tresca friction. Empty: none.");
+    parameter::declare(
+        prm, "Reach", "auto",
+        OrWord(NumberPattern::between(0., largest_reach), "auto"),
+        parameter::advanced("length", "0.2"),
+        "Distance within which the surfaces are paired. auto: half a facet; "
+        "more if the surfaces move farther, or if nothing nearer stops a body "
+        "without supports.");
+    parameter::declare(prm, "Closed form", "", TextPattern("a name"),
+                       parameter::advanced("", "Hertz"),
+                       "Name of the solution from theory that pictures of "
+                       "plane scenes show with the computed tractions.");
+    parameter::declare(
+        prm, "Closed form of pressure", "", TextPattern("a formula"),
+        parameter::advanced("force/length^2", "4*Fy/pi*sqrt(max(0, 1 - x^2))"),
+        "Its pressure on the secondary surface: a formula in x, y, t and the "
+        "forces of the run on that surface, Fx, Fy in all and Qx, Qy of "
+        "friction. Empty: none.");
+    parameter::declare(
+        prm, "Closed form of friction", "", TextPattern("a formula"),
+        parameter::advanced("force/length^2", "0.3*Fy/pi"),
+        "Its tangential traction, a formula like `Closed form of pressure`.");
     prm.leave_subsection();
   }
 
@@ -82,16 +95,17 @@ namespace abut::app
     prm.enter_subsection(section);
     secondary = prm.get("Secondary");
     primary = prm.get("Primary");
-    obstacle = prm.get_integer("Obstacle");
+    obstacle =
+        static_cast<unsigned int>(parameter::number_or_zero(prm, "Obstacle"));
     gap = prm.get("Initial gap");
     friction = prm.get("Friction");
     friction_cap = prm.get("Largest friction");
     closed_form = prm.get("Closed form");
     closed_pressure = prm.get("Closed form of pressure");
     closed_friction = prm.get("Closed form of friction");
-    mesh_gap = prm.get_bool("Mesh gap");
+    mesh_gap = prm.get_bool("Use mesh gap");
     tied = prm.get_bool("Tied");
-    reach = prm.get_double("Reach");
+    reach = parameter::number_or_zero(prm, "Reach");
     prm.leave_subsection();
     if (secondary.empty())
       throw InputError(parameter("Secondary"),
@@ -103,12 +117,12 @@ namespace abut::app
                        "obstacle: give one of the two.");
     if (!primary.empty() && obstacle > 0)
       throw InputError(parameter("Obstacle"),
-                       "the pair has a primary surface too: give one of the "
-                       "two, or make two pairs.");
+                       "the pair has a primary surface as well: give one of "
+                       "the two, or use two pairs.");
     if (obstacle > n_obstacles)
       throw InputError(parameter("Obstacle"),
                        "there is no obstacle " + std::to_string(obstacle)
-                           + ": 'Solid/Obstacles' says "
+                           + ": Solid/Obstacles is "
                            + std::to_string(n_obstacles) + ".");
   }
 } // namespace abut::app

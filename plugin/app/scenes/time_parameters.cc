@@ -6,6 +6,8 @@
 
 #include <abut/dealii/coded.h>
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +35,10 @@ namespace abut::app
       options.name = given.scheme.c_str();
       abut_time_scheme scheme;
       if (abut_time_scheme_make(&options, &scheme) != ABUT_SUCCESS)
-        throw InputError("Time/Scheme", "'" + given.scheme
-                                            + "' does not go together with "
-                                              "its numbers in section Time.");
+        throw InputError("Time stepping/Scheme",
+                         "'" + given.scheme
+                             + "' does not agree with its parameters in "
+                               "section Time stepping.");
       return scheme;
     }
   } // namespace
@@ -47,24 +50,24 @@ namespace abut::app
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
     const std::string other =
-        scheme.projects != 0 ? "; or Time/Scheme = hht with modified mass"
-        : scheme.gamma > 0.5 ? "; or Time/Scheme = trapezoid with modified "
-                               "mass, which does not damp"
-                             : "";
+        scheme.projects != 0
+            ? "; or Time stepping/Scheme = hht with modified mass"
+        : scheme.gamma > 0.5
+            ? "; or Time stepping/Scheme = trapezoid with modified "
+              "mass, which does not damp"
+            : "";
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
         "the scheme has lost " + percent(balance.loss)
-            + " of the energy that there was, beside what friction and "
-              "damping have taken: "
+            + " of the initial energy, in addition to friction and damping: "
             + percent(balance.fall / balance.scale) + " in the step from time "
             + short_number(begin, 6) + " to " + short_number(end, 6)
-            + ", the largest part of one step. Make Time/Step shorter, half "
-              "of it, until the loss stays the same; what then is left is "
-            + (stops ? "that of impacts: what touches over an area loses its "
-                       "velocity there, without restitution, on any mesh."
-                     : "that of the mesh at impacts, which a finer one "
-                       "lessens"
-                           + other + "."));
+            + ", the largest part of one step. Halve Time stepping/Step size "
+              "until the loss is constant; the rest is the loss "
+            + (stops ? "of impacts: areas in contact lose their velocity, "
+                       "without restitution, on any mesh."
+                     : "of the mesh at impacts, smaller on a finer one" + other
+                           + "."));
   }
 
   Message text_of_lost_motion(const abut_time_scheme &scheme,
@@ -82,13 +85,12 @@ namespace abut::app
       return "";
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
-        "inertia vanishes beside the stiffness: the step from time "
+        "inertia is negligible relative to the stiffness: the step from time "
             + short_number(begin, 6) + " to " + short_number(end, 6) + " loses "
             + short_number(100. * fall / after.scale, 3)
-            + " % of the energy without contact that could take it. The step "
-              "is longer than the slowest oscillation, and the motion is "
-              "damped away. Use a shorter Time/Step, a larger density or mass, "
-              "or less stiffness.");
+            + " % of the energy without contact as a cause. The step is longer "
+              "than the slowest oscillation. Use a smaller Time stepping/Step "
+              "size, a larger density or mass, or less stiffness.");
   }
 
   void TimeParameters::declare(dealii::ParameterHandler &prm,
@@ -96,65 +98,82 @@ namespace abut::app
                                const std::string &about_steps)
   {
     namespace Patterns = dealii::Patterns;
-    prm.enter_subsection("Time");
-    prm.declare_entry(
-        "Scheme", schemes.substr(0, schemes.find('|')),
-        Patterns::Selection(schemes),
-        "How what has mass moves. none: each load step is in equilibrium.");
+    prm.enter_subsection("Time stepping");
+    parameter::declare(prm, "Scheme", schemes.substr(0, schemes.find('|')),
+                       Patterns::Selection(schemes), parameter::basic(),
+                       "Time integration scheme. quasi-static: load steps in "
+                       "equilibrium, without inertia.");
     const bool has_impulses =
         schemes.find("velocity level") != std::string::npos;
-    prm.declare_entry(
-        "Step", "0", NumberPattern::from(0.),
-        "Length of a time step; a little less where `End` is no multiple of "
-        "it. "
-            + about_steps);
-    prm.declare_entry("End", "1", NumberPattern::positive(),
-                      "Time of the end; the motion begins at 0.");
-    prm.declare_entry("Alpha", "-0.1", NumberPattern::between(-1. / 3., 0.),
-                      "Of hht: 0 is the trapezoid; the lower, the sooner high "
-                      "frequencies die out.");
-    prm.declare_entry("Rho infinity", "0.8", NumberPattern::between(0., 1.),
-                      "Of generalised alpha: what a step leaves of the highest "
-                      "frequencies.");
-    prm.declare_entry("Beta", "0.25", NumberPattern::positive(), "Of newmark.");
-    prm.declare_entry("Gamma", "0.5", NumberPattern::from(0.5), "Of newmark.");
+    parameter::declare(prm, "Step size", "auto",
+                       OrWord(NumberPattern::from(0.), "auto"),
+                       parameter::basic("time", "0.01"),
+                       "Length of a time step, required in dynamics. Slightly "
+                       "less where `End time` is not a multiple of it. "
+                           + about_steps);
+    parameter::declare(prm, "End time", "1", NumberPattern::positive(),
+                       parameter::basic("time", "2"),
+                       "Time t at the end of the last step. Loads, prescribed "
+                       "displacements and motions are formulas in t.");
+    parameter::declare(prm, "HHT alpha", "-0.1",
+                       NumberPattern::between(-1. / 3., 0.),
+                       parameter::advanced("1", "-0.05"),
+                       "Parameter alpha of hht. 0 is the trapezoidal rule; "
+                       "lower values damp high frequencies more.");
+    parameter::declare(prm, "Generalised alpha spectral radius", "0.8",
+                       NumberPattern::between(0., 1.),
+                       parameter::advanced("1", "0.9"),
+                       "Parameter rho_infinity of generalised alpha: part of "
+                       "the highest frequencies that a step leaves.");
+    parameter::declare(prm, "Newmark beta", "0.25", NumberPattern::positive(),
+                       parameter::advanced("1", "0.3025"),
+                       "Parameter beta of newmark.");
+    parameter::declare(
+        prm, "Newmark gamma", "0.5", NumberPattern::from(0.5),
+        parameter::advanced("1", "0.6"),
+        "Parameter gamma of newmark; above 0.5 high frequencies are damped.");
     if (has_impulses)
-      prm.declare_entry("Restitution", "0", NumberPattern::between(0., 1.),
-                        "Of velocity level: part of the velocity that an "
-                        "impact gives back.");
+      parameter::declare(
+          prm, "Restitution", "0", NumberPattern::between(0., 1.),
+          parameter::basic("1", "0.8"),
+          "Coefficient of restitution of velocity level: velocity after an "
+          "impact divided by the velocity before.");
     prm.leave_subsection();
   }
 
   void TimeParameters::parse(dealii::ParameterHandler &prm,
                              const bool finds_step)
   {
-    prm.enter_subsection("Time");
+    prm.enter_subsection("Time stepping");
     Given given;
     given.scheme = prm.get("Scheme");
-    given.options.alpha = prm.get_double("Alpha");
-    given.options.rho_infinity = prm.get_double("Rho infinity");
-    given.options.beta = prm.get_double("Beta");
-    given.options.gamma = prm.get_double("Gamma");
-    step = prm.get_double("Step");
-    end = prm.get_double("End");
-    is_on = given.scheme != "none";
+    given.options.alpha = prm.get_double("HHT alpha");
+    given.options.rho_infinity =
+        prm.get_double("Generalised alpha spectral radius");
+    given.options.beta = prm.get_double("Newmark beta");
+    given.options.gamma = prm.get_double("Newmark gamma");
+    step = parameter::number_or_zero(prm, "Step size");
+    end = prm.get_double("End time");
+    is_on = given.scheme != "quasi-static";
     if (given.scheme == "velocity level")
       restitution = prm.get_double("Restitution");
     prm.leave_subsection();
     if (!is_on)
       return;
     if (given.scheme == "newmark" && given.options.beta < least_beta)
-      throw InputError("Time/Beta",
-                       "accelerations are differences of displacements over "
-                       "Beta, and have no digits below "
+      throw InputError("Time stepping/Newmark beta",
+                       "accelerations are differences of displacements divided "
+                       "by beta, and are dominated by round-off below "
                            + short_number(least_beta)
-                           + "; Beta = 0 is Time/Scheme = central difference.");
+                           + "; Newmark beta = 0 is Time stepping/Scheme = "
+                             "central difference.");
     scheme = make_scheme(given);
     if (step == 0. && finds_step)
       return;
     if (step == 0.)
-      throw InputError("Time/Step", "Time/Scheme = " + given.scheme
-                                        + " needs the length of a time step.");
+      throw InputError("Time stepping/Step size",
+                       "Time stepping/Scheme = " + given.scheme
+                           + " needs a Time stepping/Step size.");
     check_step();
   }
 
@@ -163,30 +182,31 @@ namespace abut::app
     const std::string name = scheme.name;
     const bool is_modified = mass == ABUT_TIME_MASS_MODIFIED;
     if (scheme.beta == 0. && mass != ABUT_TIME_MASS_LUMPED)
-      throw InputError("Time/Mass",
+      throw InputError("Time stepping/Mass matrix",
                        name + " is explicit and needs a lumped mass.");
     if (scheme.keeps_springs != 0 && is_modified)
-      throw InputError("Time/Mass", "energy momentum keeps the energy of "
-                                    "nodes with mass: consistent or lumped.");
+      throw InputError("Time stepping/Mass matrix",
+                       "energy momentum conserves the energy of nodes with "
+                       "mass: consistent or lumped.");
     if (scheme.projects != 0 && is_modified)
-      throw InputError("Time/Mass",
+      throw InputError("Time stepping/Mass matrix",
                        name
-                           + " moves what would penetrate by its mass, and "
-                             "needs mass where bodies meet: consistent or "
-                             "lumped.");
+                           + " needs mass at contact to remove penetration: "
+                             "consistent or lumped.");
     if (scheme.impulses != 0 && is_modified)
-      throw InputError("Time/Mass",
-                       "velocity level needs mass where bodies meet: lumped "
-                       "or consistent.");
+      throw InputError(
+          "Time stepping/Mass matrix",
+          "velocity level needs mass at contact: lumped or consistent.");
   }
 
   void TimeParameters::check_step() const
   {
     if (end / step > most_steps)
-      throw InputError("Time/Step", "more than 1e7 steps to Time/End.");
+      throw InputError("Time stepping/Step size",
+                       "more than 1e7 steps to Time stepping/End time.");
     if (step > end * (1. + 1e-9))
-      throw InputError("Time/Step", "one step is longer than the time to "
-                                    "Time/End.");
+      throw InputError("Time stepping/Step size",
+                       "one step is longer than Time stepping/End time.");
   }
 
   LoadStepOptions TimeParameters::steps(const LoadStepOptions &given) const

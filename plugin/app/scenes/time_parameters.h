@@ -34,7 +34,7 @@ namespace abut::app
                               const abut_time_balance &after, double force,
                               double way, double begin, double end);
 
-  /** Section `Time`: motion by a scheme of the core. */
+  /** Section `Time stepping`: motion by a scheme of the core. */
   struct TimeParameters
   {
     bool is_on = false; ///< whether there is a scheme

@@ -38,11 +38,11 @@ abut_sized_read(void *taken, size_t size, const void *given)
 {
   const size_t stated = size_of(given);
   if (!is_a_size(stated))
-    return "struct_size is that of no version: begin with the defaults";
+    return "struct_size belongs to no version: start with the defaults";
   const unsigned char *bytes = given;
   for (size_t i = size; i < stated; ++i)
     if (bytes[i] != 0)
-      return "a field is set that this version of the library does not know";
+      return "a field is set that this version of the library does not have";
   memcpy((unsigned char *)taken + sizeof(size_t), bytes + sizeof(size_t),
          smaller(size, stated) - sizeof(size_t));
   return NULL;
@@ -53,7 +53,7 @@ abut_sized_write(void *result, size_t size, const void *source)
 {
   const size_t stated = size_of(result);
   if (!is_a_size(stated))
-    return "struct_size of the result is that of no version";
+    return "struct_size of the result belongs to no version";
   unsigned char *bytes = result;
   memcpy(bytes + sizeof(size_t), (const unsigned char *)source + sizeof(size_t),
          smaller(size, stated) - sizeof(size_t));

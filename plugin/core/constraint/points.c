@@ -4,6 +4,7 @@
  * point with more splits them. */
 #include "constraint/points.h"
 #include "base/memory.h"
+#include "constraint/places.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -30,6 +31,7 @@ struct abut_points
   abut_array node;        /* int32_t, entries */
   abut_array coefficient; /* double, entries */
   abut_array component_id, component_weight, bilateral; /* if split */
+  abut_places places;
 };
 
 static void
@@ -72,6 +74,7 @@ abut_points_create(abut_context *context, int32_t dimension,
   made->context = context;
   made->dimension = dimension;
   set_sizes(made);
+  abut_places_set_up(&made->places, context, dimension);
   abut_status status = abut_array_reserve(context, &made->component, 0, 1);
   if (status == ABUT_SUCCESS)
     status = abut_array_reserve(context, &made->start, 0, 1);
@@ -98,6 +101,7 @@ abut_points_destroy(abut_points **points)
   list_arrays(old, arrays);
   for (int i = 0; i < N_ARRAYS; ++i)
     abut_array_release(old->context, arrays[i]);
+  abut_places_release(&old->places);
   abut_object_destroy(old->context, old, sizeof(*old));
   *points = NULL;
   return ABUT_SUCCESS;
@@ -130,6 +134,12 @@ abut_points_dimension(const abut_points *points)
   return points->dimension;
 }
 
+abut_places *
+abut_points_places(abut_points *points)
+{
+  return &points->places;
+}
+
 double *
 abut_points_gaps(abut_points *points)
 {
@@ -142,6 +152,7 @@ abut_points_truncate(abut_points *points, int32_t n)
   points->n_points = n;
   points->n_components = ((const int32_t *)points->component.data)[n];
   points->is_split = points->is_split && n > 0;
+  abut_places_truncate(&points->places, n);
 }
 
 static int64_t
@@ -416,8 +427,8 @@ abut_points_filter(abut_points *points, const uint8_t *keep)
   if (points->n_points > 0 && keep == NULL)
     return abut_fail(points->context, ABUT_INVALID_ARGUMENT,
                      "abut_points_filter", "keep is NULL");
-  const int32_t n = points->n_points;
-  points->n_points = points->n_components = 0;
+  const int32_t n = points->n_points, n_places = points->places.n;
+  points->n_points = points->n_components = points->places.n = 0;
   /* Where a point ends is overwritten as soon as components are left out. */
   int32_t first = 0;
   for (int32_t i = 0; i < n; ++i)
@@ -425,13 +436,17 @@ abut_points_filter(abut_points *points, const uint8_t *keep)
     const int32_t end = ((const int32_t *)points->component.data)[i + 1];
     abut_point point = point_of(points, i, first);
     const uint8_t *kept = keep + first;
+    const int32_t n_components = point.n_components;
     first = end;
     if (point.kind == ABUT_POINT_TIE || kept[0])
       keep_components(points, kept, &point);
     else
       point.n_components = 0;
-    if (point.n_components > 0)
-      write_point(points, &point);
+    if (point.n_components == 0)
+      continue;
+    write_point(points, &point);
+    if (i < n_places)
+      abut_places_keep(&points->places, i, n_components, kept);
   }
   return ABUT_SUCCESS;
 }
@@ -472,6 +487,9 @@ abut_points_renumber(abut_points *points, int32_t n_nodes,
     if (number[node[e]] < 0)
       return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
                        "a new number is negative");
+  if (!abut_places_renumber(&points->places, n_nodes, number))
+    return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
+                     "a node of a place has no new number");
   for (int64_t e = 0; e < n; ++e)
     node[e] = number[node[e]];
   return ABUT_SUCCESS;

@@ -230,7 +230,8 @@ fault_of_places(const abut_coupling *c, const abut_coupling_target *t)
   const bool is_displaced = k->points != ABUT_CONFIGURATION_REFERENCE;
   const bool turns = k->directions != k->points;
   if (does_not_fit(t->reference, is_displaced, c->secondary))
-    return "reference positions are given where the surfaces stand elsewhere";
+    return "reference positions are given only if the surfaces are in another "
+           "configuration";
   if (does_not_fit(t->current, turns, c->secondary)
       || does_not_fit(t->current_primary, turns, c->primary))
     return "current positions are given, of both surfaces, where kinematics is "

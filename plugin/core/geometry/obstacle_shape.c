@@ -128,7 +128,7 @@ check(abut_context *context, const char *call, const abut_obstacle_shape *s)
                      "dimension is neither 2 nor 3");
   if (abut_obstacle_fields(s->kind) == 0)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "kind is none of the shapes");
+                     "kind is not one of the shapes");
   if (s->dimension == 2 && shapes[s->kind].not_in_2d != NULL)
     return abut_fail(context, ABUT_UNSUPPORTED, call,
                      shapes[s->kind].not_in_2d);

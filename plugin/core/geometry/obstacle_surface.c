@@ -137,11 +137,11 @@ check_sides(abut_context *context, const char *call, const abut_surface *s,
       const int32_t across = s->view.neighbour[4 * (int64_t)f + k];
       if (across == ABUT_NEIGHBOUR_MANY)
         return refuse_facet(context, call, f,
-                            " has a side where more than two facets meet");
+                            " has an edge with more than two facets");
       if (across == ABUT_NEIGHBOUR_BORDER && !open)
-        return refuse_facet(context, call, f,
-                            " has a side without a neighbour: the surface is "
-                            "not closed");
+        return refuse_facet(
+            context, call, f,
+            " has an edge without a neighbour: the surface is not closed");
     }
   return abut_surface_check_orientation(s);
 }

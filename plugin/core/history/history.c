@@ -193,7 +193,7 @@ abut_entries_check(abut_context *context, const char *call,
       probe += 0.0 * e->place[3 * i + d];
     if (!isfinite(probe))
       return reject(context, ABUT_NOT_FINITE, call, e->id[i],
-                    ": pressure or place is not finite");
+                    ": pressure or position is not finite");
   }
   return ABUT_SUCCESS;
 }

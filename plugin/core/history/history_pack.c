@@ -120,9 +120,9 @@ static const char *
 fault_of(const head *h, const void *body, size_t bytes)
 {
   if (memcmp(h->magic, magic, sizeof(magic)) != 0)
-    return "these bytes are no history of contact";
+    return "these bytes are not a contact history";
   if (h->byte_order != byte_order)
-    return "the history was written by a machine with another order of bytes";
+    return "the history was written by a machine with another byte order";
   if (h->version != format_version)
     return "the history has another version of the format; it was written by "
            "another version of this library";
@@ -132,7 +132,7 @@ fault_of(const head *h, const void *body, size_t bytes)
     return "sizes in the head of the history contradict each other: it is "
            "damaged";
   if (h->bytes != bytes)
-    return "the history is cut off, or more follows it than it says";
+    return "the history is cut off, or followed by other bytes";
   if (h->sum != sum_of(*h, body, bytes - sizeof(head)))
     return "the history is damaged: its sum is wrong";
   if (memchr(h->law, 0, sizeof(h->law)) == NULL || !isfinite(h->first_penalty)
@@ -190,9 +190,9 @@ abut_history_unpack(abut_history *history, const void *buffer, size_t bytes)
   if (buffer == NULL)
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call, "buffer is NULL");
   if (bytes < sizeof(head))
-    return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "the bytes are too few for a history of contact: it is "
-                     "cut off, or something else");
+    return abut_fail(
+        context, ABUT_INVALID_ARGUMENT, call,
+        "too few bytes for a contact history: it is cut off, or not one");
   head h;
   memcpy(&h, buffer, sizeof(h));
   const char *body = (const char *)buffer + sizeof(head);

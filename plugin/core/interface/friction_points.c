@@ -7,6 +7,7 @@
 
 #include <abut/friction_points.h>
 #include <abut/law.h>
+#include <abut/places.h>
 
 #include <string.h>
 
@@ -14,37 +15,26 @@ typedef struct work
 {
   abut_context *context;
   abut_points_view view;
-  abut_point_places places;
+  abut_places_view places;
   abut_array head; /* int32_t, [n_nodes]; -1: none */
   abut_array next; /* int32_t, [n_points]; -1: the last one */
 } work;
 
+/* The points of pairs below n_pairs. */
 static abut_status
-begin(work *w, const char *call, const abut_points *points,
-      const abut_point_places *places)
+begin(work *w, const char *call, const abut_points *points, int32_t n_pairs)
 {
   memset(w, 0, sizeof(*w));
-  const abut_status status = abut_points_get(points, &w->view);
+  abut_status status = abut_points_get(points, &w->view);
+  if (status == ABUT_SUCCESS)
+    status = abut_points_get_places(points, &w->places);
   if (status != ABUT_SUCCESS)
     return status;
   w->context = abut_points_context(points);
-  if (places == NULL)
-    return abut_fail(w->context, ABUT_INVALID_ARGUMENT, call, "places is NULL");
-  const abut_status taken =
-      abut_copy_in(w->context, call, &w->places, sizeof(w->places), places);
-  if (taken != ABUT_SUCCESS)
-    return taken;
-  const abut_point_places *p = &w->places;
-  if (p->n_nodes < 0 || p->n_pairs < 0
-      || (w->view.n_points > 0 && (p->node == NULL || p->pair == NULL)))
-    return abut_fail(w->context, ABUT_INVALID_ARGUMENT, call,
-                     "a size is negative or an array NULL");
-  for (int32_t i = 0; i < w->view.n_points; ++i)
-    if (p->node[i] < -1 || p->node[i] >= p->n_nodes || p->pair[i] < 0
-        || p->pair[i] >= p->n_pairs)
-      return abut_fail(w->context, ABUT_INVALID_ARGUMENT, call,
-                       "a node or pair of a point is out of range");
-  return ABUT_SUCCESS;
+  return w->places.n_pairs <= n_pairs
+             ? ABUT_SUCCESS
+             : abut_fail(w->context, ABUT_INVALID_ARGUMENT, call,
+                         "points are of more pairs");
 }
 
 /* Lists of the points of each node. */
@@ -154,24 +144,24 @@ add_shared_sticks(const work *w, const double *value, const uint8_t *state,
 }
 
 abut_status
-abut_points_friction(const abut_points *points, const abut_point_places *places,
+abut_points_friction(const abut_points *points, int32_t n_pairs,
                      const double *value, const double *slip,
                      const uint8_t *state, abut_friction_sums *sums)
 {
   static const char call[] = "abut_points_friction";
   work w;
-  abut_status status = begin(&w, call, points, places);
+  abut_status status = begin(&w, call, points, n_pairs);
   if (status != ABUT_SUCCESS)
     return status;
   const abut_points_view *v = &w.view;
   if ((v->n_components > 0 && (value == NULL || slip == NULL))
-      || (w.places.n_pairs > 0 && sums == NULL))
+      || (n_pairs > 0 && sums == NULL))
     return abut_fail(w.context, ABUT_INVALID_ARGUMENT, call,
                      "values, slips or sums are NULL");
   if (state != NULL)
     status = list_points(&w);
-  if (status == ABUT_SUCCESS && w.places.n_pairs > 0)
-    memset(sums, 0, (size_t)w.places.n_pairs * sizeof(*sums));
+  if (status == ABUT_SUCCESS && n_pairs > 0)
+    memset(sums, 0, (size_t)n_pairs * sizeof(*sums));
   for (int32_t i = 0; i < v->n_points && status == ABUT_SUCCESS; ++i)
     if (is_contact(&w, i))
       add_point(v, i, value, slip,
@@ -198,12 +188,12 @@ have_same_normal(const abut_points_view *v, int32_t i, int32_t j)
 }
 
 abut_status
-abut_points_cover(const abut_points *points, const abut_point_places *places,
+abut_points_cover(const abut_points *points, int32_t n_pairs,
                   const uint8_t *marks, uint8_t *keep)
 {
   static const char call[] = "abut_points_cover";
   work w;
-  abut_status status = begin(&w, call, points, places);
+  abut_status status = begin(&w, call, points, n_pairs);
   if (status != ABUT_SUCCESS)
     return status;
   const abut_points_view *v = &w.view;
@@ -231,13 +221,12 @@ abut_points_cover(const abut_points *points, const abut_point_places *places,
 }
 
 abut_status
-abut_points_rivals(const abut_points *points, const abut_point_places *places,
-                   int32_t n, const int32_t *first, int32_t *n_rivals,
-                   int32_t *rival_point, int32_t *rival_row)
+abut_points_rivals(const abut_points *points, int32_t n, const int32_t *first,
+                   int32_t *n_rivals, int32_t *rival_point, int32_t *rival_row)
 {
   static const char call[] = "abut_points_rivals";
   work w;
-  abut_status status = begin(&w, call, points, places);
+  abut_status status = begin(&w, call, points, INT32_MAX);
   if (status != ABUT_SUCCESS)
     return status;
   const abut_points_view *v = &w.view;

@@ -179,7 +179,7 @@ fault_of(const abut_missed_options *o)
       || !is_length(o->side_thickness[1]))
     return "a tolerance or thickness is negative or not finite";
   if ((o->secondary_start == NULL) != (o->primary_start == NULL))
-    return "one surface has positions at the start, the other one has none";
+    return "only one surface has positions at the start";
   return NULL;
 }
 

@@ -309,11 +309,12 @@ explain_singular(const dense_host *host, const abut_strategy *strategy,
 {
   if (!host->slips)
     return abut_fail(host->context, status, call,
-                     "the stiffness is singular with what is closed: give a "
-                     "start state that holds the body");
-  abut_fail(host->context, status, call,
-            "the stiffness is singular with what is closed and sticks: "
-            "friction does not hold the body, or not from this start");
+                     "the stiffness is singular with the closed constraints: "
+                     "give a start state that supports the body");
+  abut_fail(
+      host->context, status, call,
+      "the stiffness is singular with the closed and sticking constraints: "
+      "friction does not carry the body, or not from this start");
   if (reason == NULL)
     return status;
   *reason = ABUT_REASON_UNHELD;

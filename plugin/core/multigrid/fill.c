@@ -293,7 +293,7 @@ abut_multigrid_check(abut_multigrid *mg, const abut_multigrid_matrix *a,
     {
       if (a->column[e] < 0 || a->column[e] >= n)
         return abut_fail(mg->context, ABUT_INVALID_ARGUMENT, call,
-                         "a column is none of the matrix");
+                         "a column is not in the matrix");
       probe += 0.0 * a->value[e];
     }
   return probe == 0 ? ABUT_SUCCESS

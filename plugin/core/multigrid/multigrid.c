@@ -33,7 +33,7 @@ wrong_mesh(const abut_multigrid_hierarchy *h, int32_t l)
     for (int64_t e = mesh->start[i]; e < mesh->start[i + 1]; ++e)
     {
       if (mesh->parent[e] < 0 || mesh->parent[e] >= mesh[1].n_nodes)
-        return "a parent is no node of the next coarser mesh";
+        return "a parent is not a node of the next coarser mesh";
       probe += 0.0 * mesh->weight[e];
     }
   }
@@ -48,7 +48,7 @@ wrong_ranks(const abut_multigrid_hierarchy *h)
     return NULL;
   if (ranks->first_own == NULL || ranks->n_own == NULL
       || ranks->add_copies == NULL || ranks->reduce == NULL)
-    return "what joins the ranks is incomplete";
+    return "the exchange between ranks is incomplete";
   for (int32_t l = 0; l < h->n_meshes; ++l)
     if (ranks->first_own[l] < 0 || ranks->n_own[l] < 0
         || ranks->n_own[l] > h->mesh[l].n_nodes - ranks->first_own[l])
@@ -229,7 +229,7 @@ build(abut_multigrid *mg, const abut_multigrid_hierarchy *h)
   return take_unknowns(mg, h->unknown)
              ? ABUT_SUCCESS
              : abut_fail(mg->context, ABUT_INVALID_ARGUMENT, create_call,
-                         "the unknowns are no permutation of the rows");
+                         "the unknowns are not a permutation of the rows");
 }
 
 abut_status
@@ -483,9 +483,9 @@ abut_multigrid_set_constrained(abut_multigrid *mg, const uint8_t *held,
   const bool good = holds_numbers(mg, added);
   if (any_rank(&mg->level[0], !good))
     return good ? abut_fail(mg->context, ABUT_FAILED_ELSEWHERE, hold_call,
-                            "what is added is wrong on another rank")
+                            "added values are wrong on another rank")
                 : abut_fail(mg->context, ABUT_INVALID_ARGUMENT, hold_call,
-                            "what is added is negative or not finite");
+                            "added values are negative or not finite");
   const bool first = !mg->is_ready;
   mg->is_ready = false;
   mg->n_renewed = 0;

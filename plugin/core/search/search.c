@@ -47,7 +47,7 @@ fault_of(const abut_search_options *o)
     return "reach, relative_reach or skin is negative or not finite";
   for (int i = 0; i < 4; ++i)
     if (o->reserved[i] != 0)
-      return "an option is set that this version of the library does not know";
+      return "an option is set that this version of the library does not have";
   return NULL;
 }
 

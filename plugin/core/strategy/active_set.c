@@ -470,7 +470,7 @@ settled(abut_strategy *s, const findings *found)
     abut_text text = abut_strategy_remark(s);
     abut_text_add(&text, "not converged after ");
     abut_text_add_integer(&text, s->progress.outer);
-    abut_text_add(&text, " outer steps (max_outer)");
+    abut_text_add(&text, " outer iterations");
     return abut_strategy_stop(s, ABUT_REASON_STEP_LIMIT);
   }
   abut_active_set_reset(&s->active_set);

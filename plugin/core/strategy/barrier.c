@@ -69,7 +69,7 @@ stop_infeasible(abut_strategy *s, double n_closed, double worst)
   abut_text text = abut_strategy_remark(s);
   abut_text_add(&text, "the barrier needs open gaps, but ");
   abut_text_add_integer(&text, (int64_t)n_closed);
-  abut_text_add(&text, " rows are closed, the worst with gap ");
+  abut_text_add(&text, " constraints are closed, the worst with gap ");
   abut_text_add_number(&text, worst);
   return abut_strategy_stop(s, ABUT_REASON_INFEASIBLE);
 }
@@ -135,7 +135,7 @@ next_barrier(abut_strategy *s)
     abut_text text = abut_strategy_remark(s);
     abut_text_add(&text, "the barrier is still ");
     abut_text_add_number(&text, s->progress.barrier);
-    abut_text_add(&text, " after max_outer steps");
+    abut_text_add(&text, " after all outer iterations");
     return abut_strategy_stop(s, ABUT_REASON_STEP_LIMIT);
   }
   set_barrier(s, fmax(s->progress.barrier * options->barrier_factor,

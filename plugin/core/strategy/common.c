@@ -149,7 +149,7 @@ abut_strategy_request_solve(abut_strategy *s, double tolerance, bool final)
     abut_text text = abut_strategy_remark(s);
     abut_text_add(&text, "not converged after ");
     abut_text_add_integer(&text, s->progress.step);
-    abut_text_add(&text, " linear systems (max_steps)");
+    abut_text_add(&text, " linear systems");
     return abut_strategy_stop(s, ABUT_REASON_STEP_LIMIT);
   }
   const abut_status status = abut_strategy_agree(s, abut_strategy_linearise(s));

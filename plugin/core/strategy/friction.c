@@ -114,7 +114,7 @@ abut_friction_start(abut_strategy *s)
   for (int32_t k = 0; k < f->n_rivals; ++k)
     if (f->rival_row[k] >= s->n)
       return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, f->rival_point[k],
-                                  "its rival's row is behind the last one");
+                                  "its rival's row is beyond the last one");
   const abut_status status = place_arrays(s);
   if (status != ABUT_SUCCESS)
     return status;
@@ -278,7 +278,7 @@ abut_friction_find_bounds(abut_strategy *s)
     if (!(f->bound[i] >= 0) || !isfinite(f->d_bound[i]))
       return abut_friction_reject(
           s, ABUT_NOT_FINITE, i,
-          "the friction law gives a bound that is negative or none");
+          "the friction law gives a limit that is negative or not finite");
     f->bound[i] *= factor;
     f->d_bound[i] *= factor;
     if (f->rung == ABUT_RUNG_TRESCA)

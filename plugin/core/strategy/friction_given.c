@@ -50,7 +50,7 @@ check_point(abut_strategy *s, const abut_strategy_friction *in, int32_t i,
   for (int32_t k = 0; in->tangent != NULL && k < in->n_tangents[i]; ++k)
     if (in->tangent[tangent + k] > ABUT_TANGENT_PRESCRIBED)
       return abut_friction_reject(s, ABUT_INVALID_ARGUMENT, i,
-                                  "one of its tangents is no abut_tangent");
+                                  "one of its tangents is not an abut_tangent");
   double probe = 0 * in->coefficient[i];
   for (int32_t k = 0; in->reference_traction != NULL && k < in->n_tangents[i];
        ++k)

@@ -105,21 +105,22 @@ abut_friction_describe_end(const abut_friction_rows *f, abut_text *text)
   switch (f->iteration)
   {
   case ABUT_FRICTION_PRIMAL_DUAL:
-    abut_text_add(text, "sets of stick and slip came back and no cure helped");
+    abut_text_add(text,
+                  "states of stick and slip cycle, also with all protections");
     break;
   case ABUT_FRICTION_RADIAL_RETURN:
-    abut_text_add(text, "sets of stick and slip came back: Newton's method on "
-                        "the return map goes to and fro between them; primal-"
-                        "dual is the iteration that does not");
+    abut_text_add(text, "Newton's method on the return map cycles between "
+                        "states of stick and slip; primal-dual does not");
     break;
   case ABUT_FRICTION_TRESCA:
     abut_text_add(text, "Tresca's fixed point has not settled: after ");
     abut_text_add_integer(text, f->rounds);
-    abut_text_add(text, " rounds the bounds of friction still change by ");
+    abut_text_add(text, " iterations the friction limits still change by ");
     abut_text_add_number(text, f->change);
     abut_text_add(text, " of the largest one");
     if (f->steps > MAX_STEPS)
-      abut_text_add(text, ", and with these no state is found");
+      abut_text_add(text,
+                    ", and no state of stick and slip is found with them");
     abut_text_add(text, "; primal-dual needs no rounds");
     break;
   }

@@ -206,10 +206,10 @@ moved(abut_strategy *s)
     s->progress.seen = ABUT_FAILURE_INTERIOR;
   if (interior->n_short >= MAX_SHORT)
     return give_up(s, ABUT_REASON_STAGNATION,
-                   "interior point: the steps have become very short");
+                   "interior point: the step lengths have become very small");
   if (s->progress.outer >= options->max_outer)
     return give_up(s, ABUT_REASON_STEP_LIMIT,
-                   "interior point: max_outer steps were not enough");
+                   "interior point: not converged within max_outer iterations");
   return predict(s);
 }
 

@@ -105,8 +105,9 @@ static void
 remark_stagnation(abut_strategy *s, double gap_error)
 {
   abut_text text = abut_strategy_remark(s);
-  abut_text_add(&text, "the method of multipliers does not contract: relative "
-                       "gap error ");
+  abut_text_add(
+      &text,
+      "the method of multipliers does not converge: relative gap error ");
   abut_text_add_number(&text, gap_error);
   abut_text_add(&text, ", pressures change by ");
   abut_text_add_number(&text, s->progress.pressure_change);

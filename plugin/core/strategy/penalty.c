@@ -42,9 +42,10 @@ abut_penalty_settled(abut_strategy *s, abut_verdict *verdict)
   abut_text text = abut_strategy_remark(s);
   abut_text_add(&text, "the penalty is at its cap ");
   abut_text_add_number(&text, penalty);
-  abut_text_add(&text, error > penetration
-                           ? " and the relative slip of what sticks still "
-                           : " and the relative penetration still ");
+  abut_text_add(&text,
+                error > penetration
+                    ? " and the relative slip of sticking points is still "
+                    : " and the relative penetration is still ");
   abut_text_add_number(&text, error);
   abut_text_add(&text, " above the gap tolerance ");
   abut_text_add_number(&text, options->gap_tolerance);

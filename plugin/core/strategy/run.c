@@ -48,7 +48,7 @@ abut_strategy_run(abut_strategy *strategy, const abut_host *given,
                      "the host's functions are incomplete");
   if (s->phase != ABUT_PHASE_STARTED)
     return abut_fail(s->context, ABUT_WRONG_ORDER, call,
-                     "the strategy is not freshly started");
+                     "the strategy has not just been started");
   abut_request request;
   status = abut_strategy_next(s, NULL, &request);
   if (status == ABUT_SUCCESS && request.action == ABUT_ACTION_STOP)

@@ -23,17 +23,17 @@ abut_reason_text(abut_reason reason)
     return "a limit was reached: allow more steps or a larger penalty, start "
            "closer to the solution, or use another method";
   case ABUT_REASON_STAGNATION:
-    return "the iteration does not contract: use a larger or adaptive penalty, "
-           "or tighter linear solves";
+    return "the iteration does not converge: use a larger or adaptive penalty, "
+           "or a smaller linear tolerance";
   case ABUT_REASON_INFEASIBLE:
     return "the barrier needs a start with all gaps open: move the bodies "
            "apart, or use 'interior point', which needs none";
   case ABUT_REASON_NOT_FINITE:
-    return "a gap or an increment is NaN or infinite: look for data that are "
-           "not finite, and for a linear system that is singular";
+    return "a gap or an increment is not finite: check for data that are not "
+           "finite and for a singular linear system";
   case ABUT_REASON_UNHELD:
-    return "friction does not hold a body and nothing else does: give it a "
-           "support, less load along the surface, or more friction";
+    return "a body is supported by friction alone, which is too small: give it "
+           "a support, less load along the surface, or more friction";
   }
   return "unknown reason";
 }

@@ -62,7 +62,7 @@ check_row(abut_context *context, const abut_mass_matrix *m, int32_t i)
     probe += 0.0 * m->place[(int64_t)i * m->dimension + d];
   if (probe != 0)
     return complain(context, ABUT_NOT_FINITE, i,
-                    " has a mass or a place that is not finite");
+                    " has a mass or a position that is not finite");
   return has_diagonal ? ABUT_SUCCESS
                       : complain(context, ABUT_INVALID_ARGUMENT, i,
                                  " has no diagonal entry");
@@ -78,7 +78,7 @@ check_matrix(abut_context *context, const abut_mass_matrix *m,
       || (rule != ABUT_MASS_NEIGHBOURS && rule != ABUT_MASS_CENTRE)
       || (rule == ABUT_MASS_CENTRE && m->place == NULL))
     return abut_fail(context, ABUT_INVALID_ARGUMENT, call,
-                     "the matrix is incomplete, or the rule is none");
+                     "the matrix is incomplete, or there is no such rule");
   for (int32_t i = 0; i < m->n; ++i)
   {
     const abut_status status = check_row(context, m, i);
@@ -265,8 +265,8 @@ centre(redistribution *r)
       mark_part(r, i, n_parts);
       if (!centre_part(r, n_parts++, i))
         return complain(r->context, ABUT_UNSUPPORTED, i,
-                        " is of a body whose centre of mass cannot be kept: "
-                        "the nodes that take mass are in a line");
+                        " belongs to a body whose centre of mass cannot be "
+                        "preserved: the nodes that receive mass are on a line");
     }
   return ABUT_SUCCESS;
 }
@@ -279,8 +279,8 @@ check_diagonal(const redistribution *r)
     if (!r->candidate[i] && r->added[i] != 0
         && !(diagonal(m, i) + r->added[i] > 0))
       return complain(r->context, ABUT_UNSUPPORTED, i,
-                      " would have no positive mass: hand mass to "
-                      "neighbours without keeping its centre");
+                      " would have no positive mass: redistribute mass without "
+                      "preserving its centre");
   return ABUT_SUCCESS;
 }
 
@@ -302,8 +302,8 @@ redistribute(redistribution *r, abut_mass_rule rule)
   for (int32_t i = 0; i < r->mass.n; ++i)
     if (r->candidate[i] && !hand_on(r, i))
       return complain(r->context, ABUT_UNSUPPORTED, i,
-                      " has no neighbour that stays out of contact and could "
-                      "take its mass: use contact stabilised");
+                      " has no neighbour outside of contact that could receive "
+                      "its mass: use contact stabilised");
   abut_status status = ABUT_SUCCESS;
   if (rule == ABUT_MASS_CENTRE)
     status = centre(r);

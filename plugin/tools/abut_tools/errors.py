@@ -3,9 +3,16 @@
 import argparse
 import sys
 
+from .nearest_word import did_you_mean
+
 
 class InputError(Exception):
-    """Something that the user gave is wrong: one error, exit code 2."""
+    """Something that the user gave is wrong: one error, exit code 2. Who knows
+    where the parameter was set places it in front of the message."""
+
+    def __init__(self, message, parameter=""):
+        super().__init__(message)
+        self.parameter = parameter
 
 
 def warn(text):
@@ -18,6 +25,16 @@ class Words(argparse.ArgumentParser):
     def __init__(self, tool):
         super().__init__(prog=f"abut {tool}", add_help=False,
                          allow_abbrev=False)
+
+    def parse_args(self, words):
+        arguments, unknown = self.parse_known_args(words)
+        for word in unknown:
+            if word.startswith("-"):
+                raise InputError(
+                    f"'{self.prog}' has no option '{word}'."
+                    + did_you_mean(word, self._option_string_actions))
+            raise InputError(f"'{self.prog}' takes no '{word}'.")
+        return arguments
 
     def error(self, message):
         raise InputError(f"'{self.prog}': {message}. '{self.prog} --help' "

@@ -6,8 +6,9 @@ from .report_page import details, escape, pointer, quoted, table
 # Columns of the tables of bodies, obstacles and pairs.
 TABLES = (
     ("Body", "Bodies", ("Name", "Material", "Element", "Young modulus",
-                        "Poisson ratio", "Density", "Support", "Traction",
-                        "Pressure", "Body force")),
+                        "Poisson ratio", "Density",
+                        "Prescribed displacement", "Traction", "Pressure",
+                        "Body force")),
     ("Obstacle", "Rigid obstacles", ("Kind", "Point", "Normal", "Centre",
                                      "Radius", "Axis", "Size", "Expression",
                                      "Motion", "Free directions", "Force",

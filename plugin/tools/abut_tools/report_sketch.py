@@ -206,17 +206,19 @@ class Sketch:
                         self.run.parameter(f"{section}/Secondary")),
                    side(self.run, self.surfaces,
                         self.run.parameter(f"{section}/Primary")),
-                   self.run.parameter(f"{section}/Obstacle", "0"))
+                   self.run.parameter(f"{section}/Obstacle", "none"))
 
     def supports(self):
         """Surface and the words of its components."""
         for section in self.run.sections("Body"):
             for surface, value in named(
-                    self.surfaces, self.run.parameter(f"{section}/Support"),
+                    self.surfaces, self.run.parameter(
+                        f"{section}/Prescribed displacement"),
                     int(section.split()[-1])):
                 yield surface, components(value)
         for surface, value in named(
-                self.surfaces, self.run.parameter("Membrane/Dirichlet"), 1):
+                self.surfaces, self.run.parameter(
+                    "Membrane/Prescribed displacement"), 1):
             yield surface, [value]
 
     def loads(self):
@@ -327,7 +329,7 @@ class Sketch:
                 f'<span style="color:{colour}">&#9632;</span> pair {number}: '
                 "secondary surface (full line)"
                 + (" and primary surface (dashed)" if primary else
-                   f" and obstacle {obstacle}" if obstacle != "0" else ""))
+                   f" and obstacle {obstacle}" if obstacle != "none" else ""))
 
     def draw_supports(self, axes):
         any_drawn = is_clamped = False
@@ -423,7 +425,7 @@ class Sketch:
                 f'<span style="color:{colour}">&#9632;</span> pair {number}: '
                 "secondary surface" + (
                     " and primary surface (paler)" if primary else
-                    f"; obstacle {obstacle}" if obstacle != "0" else ""))
+                    f"; obstacle {obstacle}" if obstacle != "none" else ""))
         fixed = {id(surface) for surface, words in self.supports()
                  if any(word != "free" for word in words)}
         loaded = {id(surface) for surface, _, _ in self.loads()}

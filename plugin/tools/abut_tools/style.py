@@ -124,8 +124,9 @@ def logarithmic(axis):
     decades = math.log10(high / low)
     if decades <= 2:
         axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        is_plain = 5e-5 < low and high < 1e6
         axis.set_major_formatter(ticker.FuncFormatter(
-            lambda value, _: number(value)))
+            lambda value, _: f"{value:g}" if is_plain else number(value)))
         axis.set_minor_formatter(ticker.NullFormatter())
     else:
         step = max(1, math.ceil(decades / 8))

@@ -19,16 +19,15 @@ namespace abut::app
     {
       EffectRules rules = {
           without_time("Membrane/Conductivity",
-                       "the tension of a membrane stays what it is."),
-          without_time("Membrane/Density", "mass stays what it is."),
-          without_time("Membrane/Initial*", "it is about time 0.")};
+                       "the tension of a membrane is constant in time."),
+          without_time("Membrane/Density", "mass is constant in time."),
+          without_time("Membrane/Initial*", "it is the state at time 0.")};
       for (const char *parameters :
            {"Membrane/*", "Contact/Obstacle", "Contact/Upper obstacle",
             "Exact solution/*"})
       {
         EffectRule rule = without_time(
-            parameters, "nothing moves, and t is always 0: Time/Scheme is "
-                        "none.");
+            parameters, "t is always 0: Time stepping/Scheme is quasi-static.");
         rule.without_effect =
             [at_rest = rule.without_effect](const SceneValues &values,
                                             const std::string &path)
@@ -40,27 +39,27 @@ namespace abut::app
 
     EffectRules of_search()
     {
-      return {effective_if(
-                  "Search/*", Weight::setting,
-                  [](const SceneValues &) { return false; },
-                  "the obstacle of a membrane is a function: nothing is "
-                  "searched."),
-              effective_if(
-                  "Refinement/Relaxation sweeps", Weight::setting,
-                  [](const SceneValues &values)
-                  { return values.is_true("Refinement/Nested iteration"); },
-                  "it belongs to Refinement/Nested iteration = true.")};
+      return {
+          never_effective(
+              "Search/*", Weight::setting,
+              "the obstacle of a membrane is a function: there is no search."),
+          effective_if(
+              "Refinement/Relaxation sweeps", Weight::setting,
+              [](const SceneValues &values)
+              { return values.is_true("Refinement/Nested iteration"); },
+              "it belongs to Refinement/Nested iteration = true.")};
     }
   } // namespace
 
   EffectRules membrane_effects()
   {
     return joined({of_time(), of_height_maps(), mesh_effects("Mesh"),
-                   law_effects(),
+                   law_effects(false),
                    no_discretisation("the obstacle of a membrane acts at "
                                      "nodes."),
                    solver_effects(), refinement_effects(), of_search(),
-                   motion_effects({"Membrane/Density", "Membrane/Initial*"},
+                   motion_effects({"Time stepping/End time", "Membrane/Density",
+                                   "Membrane/Initial*"},
                                   "contact stabilised"),
                    result_effects()});
   }

@@ -10,6 +10,7 @@
 #include "app/pictures/outline.h"
 #include "app/restart/archive.h"
 #include "app/scenes/automatic_law.h"
+#include "app/scenes/method_words.h"
 #include "membrane_report.h"
 
 #include <abut/dealii/versions.h>
@@ -59,11 +60,12 @@ namespace abut::app
   {
     conductivity = std::make_unique<Expression<dim>>(parameters.conductivity,
                                                      "Membrane/Conductivity");
-    load = std::make_unique<Expression<dim>>(parameters.load, "Membrane/Load");
+    load = std::make_unique<Expression<dim>>(parameters.load,
+                                             "Membrane/Body force");
     dirichlet = std::make_unique<BoundaryExpressions<dim>>(
-        parameters.dirichlet, "Membrane/Dirichlet");
+        parameters.dirichlet, "Membrane/Prescribed displacement");
     neumann = std::make_unique<BoundaryExpressions<dim>>(parameters.neumann,
-                                                         "Membrane/Neumann");
+                                                         "Membrane/Traction");
     if (!parameters.exact_displacement.empty())
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
@@ -103,13 +105,14 @@ namespace abut::app
     {
       for (const dealii::types::boundary_id id : ids)
         if (prescribed.count(id) > 0)
-          throw InputError(name, what + " on boundary " + std::to_string(id)
-                                     + " has no effect: Membrane/Dirichlet "
-                                       "prescribes the displacement there.");
+          throw InputError(
+              name, what + " on boundary " + std::to_string(id)
+                        + " has no effect: Membrane/Prescribed displacement "
+                          "prescribes the displacement there.");
     };
     // What both lists name themselves is a mistake; their * mean the ids that
     // are left.
-    refuse_prescribed(neumann->named(names), "Membrane/Neumann", "the flux");
+    refuse_prescribed(neumann->named(names), "Membrane/Traction", "the flux");
     refuse_prescribed(contact_ids, "Contact/Boundary ids", "contact");
     data.neumann = neumann->functions(names, prescribed);
     std::set<dealii::types::boundary_id> taken = contact_ids;
@@ -237,6 +240,15 @@ namespace abut::app
                        membrane.ghosted(run.u), *exact);
   }
 
+  template <int dim> std::string MembraneModel<dim>::description() const
+  {
+    std::string text = std::string(dim == 2 ? "membrane" : "scalar field")
+                       + ", " + law_in_words(run.method);
+    if (motion)
+      text += std::string(", in time by ") + parameters.time.scheme.name;
+    return text;
+  }
+
   template <int dim>
   std::string MembraneModel<dim>::line_of(const ContactResult &result) const
   {
@@ -244,12 +256,11 @@ namespace abut::app
       return "time " + short_number(result.time, 6) + ": "
              + std::to_string(result.active) + " in contact, energy "
              + short_number(result.energy, 8);
-    return "level " + std::to_string(result.level) + ": "
+    return "mesh " + std::to_string(result.level) + ": "
            + std::to_string(result.dofs) + " unknowns, "
-           + std::to_string(result.active) + " in contact, "
-           + std::to_string(result.steps) + " steps, "
-           + std::to_string(result.linear.n_iterations)
-           + " linear iterations, energy " + std::to_string(result.energy);
+           + std::to_string(result.active) + " points in contact, "
+           + std::to_string(result.steps) + " active set iterations, energy "
+           + short_number(result.energy, 8);
   }
 
   template <int dim> void MembraneModel<dim>::declare_tables()
@@ -363,7 +374,7 @@ namespace abut::app
     run.report.set("constraints", run.contact.results().measures().n_rows);
     for (const BoundaryPart<dim> &part :
          boundary_parts(this->triangulation, run.communicator))
-      run.report.progress(names.describe(part.id) + ": " + in_words(part));
+      run.report.print("  " + names.describe(part.id) + ": " + in_words(part));
   }
 
   template <int dim>
@@ -416,11 +427,12 @@ namespace abut::app
       std::vector<double> values = density->evaluate(points);
       for (const double value : values)
         if (!(value > 0.))
-          throw InputError("Membrane/Density",
-                           "what moves has mass everywhere; the density is "
-                               + short_number(value)
-                               + " somewhere. Set a positive one, or "
-                                 "Time/Scheme = none.");
+          throw InputError(
+              "Membrane/Density",
+              "dynamics needs mass everywhere; Membrane/Density is "
+                  + short_number(value)
+                  + " at some point. Set a positive density, or Time "
+                    "stepping/Scheme = quasi-static.");
       return values;
     };
   }
@@ -504,10 +516,9 @@ namespace abut::app
     depth = dealii::Utilities::MPI::max(depth, run.communicator);
     if (depth > 1e-10 * start.linfty_norm())
       throw InputError("Membrane/Initial displacement",
-                       "the membrane begins beyond an obstacle, by up to "
+                       "the membrane starts beyond an obstacle, by up to "
                            + short_number(depth)
-                           + ": it would be thrown out of there. Let it begin "
-                             "between the obstacles.");
+                           + ". Start between the obstacles.");
   }
 
   template <int dim> la::Vector MembraneModel<dim>::start()

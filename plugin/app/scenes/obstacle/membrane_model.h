@@ -81,6 +81,7 @@ namespace abut::app
     }
     void add_to_row(ContactResult &result,
                     std::map<std::string, double> &row) const override;
+    std::string description() const override;
     std::string line_of(const ContactResult &result) const override;
 
     void resume(std::vector<la::Vector> fields) override;

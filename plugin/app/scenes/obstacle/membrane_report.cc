@@ -98,10 +98,10 @@ namespace abut::app
     report.set("linear_solve_iterations", iterations);
     report.set("contact_solve_seconds", mine);
     report.set("contact_to_linear_ratio", mine / reference);
-    report.progress("contact solve " + std::to_string(mine)
-                    + " s on all levels, one linear solve "
-                    + std::to_string(reference) + " s, ratio "
-                    + std::to_string(mine / reference));
+    report.detail("contact solve " + std::to_string(mine)
+                  + " s on all levels, one linear solve "
+                  + std::to_string(reference) + " s, ratio "
+                  + std::to_string(mine / reference));
   }
 
   template <int dim>
@@ -129,12 +129,16 @@ namespace abut::app
       report.set("h1_error", last.errors->h1_seminorm);
       report.set("nodal_error", last.errors->largest_node);
     }
-    if (!std::isnan(parameters.exact_energy))
-      report.set("energy_error",
-                 std::abs(last.energy - parameters.exact_energy));
-    if (!std::isnan(parameters.exact_force))
-      report.set("contact_force_error",
-                 std::abs(last.force - parameters.exact_force));
+    const auto compare =
+        [&](const std::string &key, const double value, const double exact)
+    {
+      if (std::isnan(exact))
+        return;
+      report.set(key + "_error", std::abs(value - exact));
+      report.expect(key, exact);
+    };
+    compare("energy", last.energy, parameters.exact_energy);
+    compare("contact_force", last.force, parameters.exact_force);
     if (last.estimate)
       report.set("estimate", *last.estimate);
   }

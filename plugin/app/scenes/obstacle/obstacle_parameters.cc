@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "obstacle_parameters.h"
 
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
+
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 namespace abut::app
 {
@@ -15,44 +17,58 @@ namespace abut::app
     void declare_membrane(ParameterHandler &prm)
     {
       prm.enter_subsection("Membrane");
-      prm.declare_entry("Degree", "1", Patterns::Integer(1, 2),
-                        "Polynomial degree of the displacement: 1 or 2.");
-      prm.declare_entry("Conductivity", "1", FormulaPattern::one(),
-                        "k in -div(k grad u) = f + p: a formula in x, y, z, "
-                        "positive. A tension, for a membrane.");
-      prm.declare_entry("Load", "0", FormulaPattern::one(),
-                        "f, force per area (2D): a formula in x, y, z and, of "
-                        "what moves (section `Time`), t, which loads, "
-                        "prescribed values and obstacles may depend on.");
-      prm.declare_entry("Density", "0", FormulaPattern::one(),
-                        "Of what moves: mass per area (2D), a formula in x, y, "
-                        "z, positive.");
-      prm.declare_entry("Initial displacement", "", FormulaPattern::one(),
-                        "Of what moves: a formula. Empty: 0.");
-      prm.declare_entry("Initial velocity", "", FormulaPattern::one(),
-                        "Of what moves: a formula. Empty: at rest.");
-      prm.declare_entry("Dirichlet", "*: 0", FormulaPattern::by_id(),
-                        "Prescribed displacements by boundary id, `0: 0; 1, "
-                        "2: x^2; *: sin(pi*y)`; * means all other ids. Ids "
-                        "that are not named are free.");
-      prm.declare_entry("Neumann", "", FormulaPattern::by_id(),
-                        "Prescribed fluxes k du/dn by boundary id, written "
-                        "like `Dirichlet`.");
+      parameter::declare(prm, "Degree", "1", Patterns::Integer(1, 2),
+                         parameter::advanced("1", "2"),
+                         "Polynomial degree of the displacement.");
+      parameter::declare(prm, "Conductivity", "1", TextPattern::formula(),
+                         parameter::basic("force/length", "1 + 0.5*x"),
+                         "Coefficient k of -div(k grad u) = f + p, the tension "
+                         "of a membrane: a positive formula in x, y, z.");
+      parameter::declare(
+          prm, "Body force", "0", TextPattern::formula(),
+          parameter::basic("force/length^2", "-10"),
+          "Load f, force per area: a formula in x, y, z and, in dynamics, t.");
+      parameter::declare(
+          prm, "Density", "0", TextPattern::formula(),
+          parameter::advanced("mass/length^2", "1"),
+          "Mass per area, for dynamics: a positive formula in x, y, z.");
+      parameter::declare(prm, "Initial displacement", "",
+                         TextPattern::formula(),
+                         parameter::advanced("length", "0.1*sin(pi*x)"),
+                         "Displacement at the start of a motion: a formula in "
+                         "x, y, z. Empty: 0.");
+      parameter::declare(
+          prm, "Initial velocity", "", TextPattern::formula(),
+          parameter::advanced("length/time", "-1"),
+          "Velocity at the start of a motion: a formula in x, y, z. Empty: 0.");
+      parameter::declare(
+          prm, "Prescribed displacement", "*: 0", TextPattern::formula_by_id(),
+          parameter::basic("length", "0: 0; 1, 2: x^2; *: sin(pi*y)"),
+          "Prescribed displacement by boundary id: a formula in x, y, z, t. * "
+          "stands for all other ids. Ids without an entry are free.");
+      parameter::declare(
+          prm, "Traction", "", TextPattern::formula_by_id(),
+          parameter::basic("force/length", "1: 0.5*y"),
+          "Prescribed flux k du/dn by boundary id: a formula in x, y, z, t.");
       prm.leave_subsection();
     }
 
     void declare_contact(ParameterHandler &prm)
     {
       prm.enter_subsection("Contact");
-      prm.declare_entry("Obstacle", "", FormulaPattern::one(),
-                        "psi in u >= psi: a formula in x, y, z. Empty: none, "
-                        "or the height map.");
-      prm.declare_entry("Upper obstacle", "", FormulaPattern::one(),
-                        "psi2 in u <= psi2: a formula. Empty: none.");
-      prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                        "Where contact is possible: boundary ids such as `0, "
-                        "2` (a scalar Signorini problem), or empty for the "
-                        "whole domain.");
+      parameter::declare(prm, "Obstacle", "", TextPattern::formula(),
+                         parameter::basic("length", "-0.1 + x^2"),
+                         "Lower obstacle psi in u >= psi: a formula in x, y, "
+                         "z, t. Empty: none, or the height map.");
+      parameter::declare(prm, "Upper obstacle", "", TextPattern::formula(),
+                         parameter::advanced("length", "0.2"),
+                         "Upper obstacle psi in u <= psi: a formula in x, y, "
+                         "z, t. Empty: none.");
+      parameter::declare(prm, "Boundary ids", "",
+                         TextPattern("a list of boundary ids"),
+                         parameter::advanced("", "0, 2"),
+                         "Boundary where contact is possible (scalar Signorini "
+                         "problem). Empty: the whole domain.");
       HeightMapParameters::declare(prm);
       prm.leave_subsection();
     }
@@ -60,34 +76,45 @@ namespace abut::app
     void declare_results(ParameterHandler &prm)
     {
       prm.enter_subsection("Exact solution");
-      prm.declare_entry("Displacement", "", FormulaPattern::one(),
-                        "A formula; if given, errors are computed.");
-      prm.declare_entry("Gradient", "", FormulaPattern::vector(),
-                        "Its gradient, `du/dx; du/dy`. Empty: by differences.");
-      prm.declare_entry("Energy", "nan", Patterns::Anything(),
-                        "Energy of the exact solution; nan: not known.");
-      prm.declare_entry("Contact force", "nan", Patterns::Anything(),
-                        "Contact force of the exact solution; nan: not known.");
+      parameter::declare(prm, "Displacement", "", TextPattern::formula(),
+                         parameter::advanced("length", "x*(1 - x)"),
+                         "Displacement of the exact solution: a formula in x, "
+                         "y, z. If given, errors are computed.");
+      parameter::declare(
+          prm, "Gradient", "", TextPattern::vector(),
+          parameter::expert("1", "1 - 2*x; 0"),
+          "Its gradient `du/dx; du/dy`. Empty: by finite differences.");
+      parameter::declare(prm, "Energy", "nan", TextPattern("a number, or nan"),
+                         parameter::expert("force*length", "0.25"),
+                         "Energy of the exact solution; nan: unknown.");
+      parameter::declare(prm, "Contact force", "nan",
+                         TextPattern("a number, or nan"),
+                         parameter::expert("force", "2"),
+                         "Contact force of the exact solution; nan: unknown.");
       prm.leave_subsection();
 
       prm.enter_subsection("Output");
-      prm.declare_entry("Fields", "true", Patterns::Bool(),
-                        "Write displacement, pressure, gap and status as VTU "
-                        "and PVD files for ParaView.");
-      prm.declare_entry("Every", "1", Patterns::Integer(1),
-                        "Write fields after every so many steps of a motion, "
-                        "and at its end.");
-      prm.declare_entry("All levels", "false", Patterns::Bool(),
-                        "Write fields on every level, not only on the last.");
-      prm.declare_entry("Nodal values", "false", Patterns::Bool(),
-                        "Write fields and forces at all nodes of the last "
-                        "level as nodal.csv, with all digits.");
-      prm.declare_entry("Linear solves for comparison", "0",
-                        Patterns::Integer(0),
-                        "Solve the problem without obstacle (assembly, ML, CG "
-                        "to 1e-10) this many times on the last mesh and "
-                        "report the contact solve's time as a multiple of the "
-                        "median.");
+      parameter::declare(prm, "Fields", "true", Patterns::Bool(),
+                         parameter::basic(),
+                         "Whether displacement, pressure, gap and status are "
+                         "written as VTU and PVD files for ParaView.");
+      parameter::declare(prm, "Every", "1", Patterns::Integer(1),
+                         parameter::advanced("time steps", "10"),
+                         "Time steps between two sets of fields of a motion. "
+                         "The last step is always written.");
+      parameter::declare(
+          prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
+          "Whether fields are written on every mesh, not only on the last.");
+      parameter::declare(
+          prm, "Nodal values", "false", Patterns::Bool(), parameter::advanced(),
+          "Whether displacement and forces at all nodes of the last mesh are "
+          "written to nodal.csv, in full precision.");
+      parameter::declare(
+          prm, "Linear solves for comparison", "0", Patterns::Integer(0),
+          parameter::expert("1", "3"),
+          "Number of times that the problem without obstacle is solved on the "
+          "last mesh (assembly, ML, conjugate gradients to 1e-10). The time of "
+          "the contact solve is reported as a multiple of the median.");
       prm.leave_subsection();
     }
   } // namespace
@@ -101,7 +128,8 @@ namespace abut::app
     declare_contact(prm);
     InertiaParameters::declare(
         prm,
-        "none|contact stabilised|hht|trapezoid|midpoint|newmark|generalised "
+        "quasi-static|contact "
+        "stabilised|hht|trapezoid|midpoint|newmark|generalised "
         "alpha|central difference with projection",
         "A step that fails is halved, down to a thousandth.");
     RefinementParameters::declare(prm, "5", "3");
@@ -112,13 +140,12 @@ namespace abut::app
   {
     if (time.mass == ABUT_TIME_MASS_MODIFIED && boundary_ids.empty())
       throw InputError(
-          "Time/Mass",
+          "Time stepping/Mass matrix",
           std::string(time.scheme.name)
-              + " with modified mass takes it from all nodes that may touch "
-                "and hands it to neighbours that may not, of which a membrane "
-                "over an obstacle has none. Set Time/Scheme = contact "
-                "stabilised, which needs none, or Time/Mass = consistent, with "
-                "which impacts ring.");
+              + " with modified mass needs nodes that cannot touch, and all "
+                "nodes of a membrane over an obstacle can. Set Time "
+                "stepping/Scheme = contact stabilised, or Time stepping/Mass "
+                "matrix = consistent, with which impacts cause oscillations.");
     time.fit(refinement);
     load_steps = time.steps(load_steps);
   }
@@ -132,9 +159,9 @@ namespace abut::app
     prm.enter_subsection("Membrane");
     degree = prm.get_integer("Degree");
     conductivity = prm.get("Conductivity");
-    load = prm.get("Load");
-    dirichlet = prm.get("Dirichlet");
-    neumann = prm.get("Neumann");
+    load = prm.get("Body force");
+    dirichlet = prm.get("Prescribed displacement");
+    neumann = prm.get("Traction");
     density = prm.get("Density");
     initial_displacement = prm.get("Initial displacement");
     initial_velocity = prm.get("Initial velocity");
@@ -148,7 +175,7 @@ namespace abut::app
     prm.leave_subsection();
     if (!obstacle.empty() && !height_map.file.empty())
       throw InputError("Contact/Obstacle",
-                       "There is a height map too: give one of the two.");
+                       "There is a height map as well: give one of the two.");
     if (obstacle.empty() && height_map.file.empty() && upper_obstacle.empty())
       throw InputError("Contact/Obstacle",
                        "There is no obstacle: give a formula, a height map or "

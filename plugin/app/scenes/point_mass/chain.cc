@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* Scenes of kind `chain of masses`: masses in a row on a rigid plane, with
  * friction, in load steps. */
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
@@ -10,6 +9,7 @@
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/load_step_parameters.h"
 #include "app/scenes/method_effects.h"
+#include "app/scenes/method_words.h"
 #include "chain_model.h"
 #include "point_mass.h"
 #include "row_formulas.h"
@@ -17,6 +17,8 @@
 #include <abut/dealii/load_steps.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -81,64 +83,78 @@ namespace abut::app
     void ChainScene::declare_masses(ParameterHandler &prm) const
     {
       prm.enter_subsection("Masses");
-      prm.declare_entry("Number", "1", Patterns::Integer(1, 200),
-                        "Masses, in a row along x above a rigid plane. A mass "
-                        "moves along the plane (x; in 3D x and y) and in "
-                        "height.");
-      prm.declare_entry("Spacing", "1", NumberPattern::positive(),
-                        "Distance of neighbours: mass i, counted from 0, has x "
-                        "= i times this in the formulas of this scene.");
-      prm.declare_entry("Spring", "1", NumberPattern::from(0),
-                        "Stiffness between neighbours, force per length, the "
-                        "same along x and y; linear.");
-      prm.declare_entry("End spring", "0", NumberPattern::from(0),
-                        "Stiffness of the spring from the first mass to "
-                        "`Load/Driven end`; 0: there is none.");
-      prm.declare_entry("Wall spring", "0", NumberPattern::from(0),
-                        "Stiffness of the spring from the last mass to a wall; "
-                        "0: there is none.");
-      prm.declare_entry("Normal spring", "1", NumberPattern::positive(),
-                        "Stiffness of the spring that holds each mass at its "
-                        "height.");
-      prm.declare_entry("Gap", "0", FormulaPattern::one(),
-                        "Height of the masses above the plane at rest, a "
-                        "formula of x.");
-      prm.declare_entry("Share of ends", "1",
-                        NumberPattern({nullptr, 0., 1., true, false}),
-                        "Part of `Load/Pressing force` and `Load/Force` that "
-                        "the first and the last mass carry: with 0.5 the chain "
-                        "is a bar of linear finite elements.");
+      parameter::declare(
+          prm, "Number", "1", Patterns::Integer(1, 200),
+          parameter::basic("1", "10"),
+          "Number of masses in a row along x above a rigid plane. A mass moves "
+          "along the plane (x; in 3D x and y) and in height.");
+      parameter::declare(prm, "Spacing", "1", NumberPattern::positive(),
+                         parameter::basic("length", "0.5"),
+                         "Distance between neighbours. Formulas see mass i, "
+                         "counted from 0, at x = i times this distance.");
+      parameter::declare(prm, "Spring", "1", NumberPattern::from(0),
+                         parameter::basic("force/length", "100"),
+                         "Stiffness of the springs between neighbours, the "
+                         "same along x and y; linear.");
+      parameter::declare(prm, "End spring", "0", NumberPattern::from(0),
+                         parameter::basic("force/length", "10"),
+                         "Stiffness of the spring between the first mass and "
+                         "`Load/Driven end`. 0: no spring.");
+      parameter::declare(prm, "Wall spring", "0", NumberPattern::from(0),
+                         parameter::advanced("force/length", "10"),
+                         "Stiffness of the spring between the last mass and a "
+                         "wall. 0: no spring.");
+      parameter::declare(
+          prm, "Normal spring", "1", NumberPattern::positive(),
+          parameter::advanced("force/length", "1"),
+          "Stiffness of the spring that carries each mass in height.");
+      parameter::declare(
+          prm, "Gap", "0", TextPattern::formula(),
+          parameter::basic("length", "0.01*x"),
+          "Height of the masses above the plane at rest: a formula in x.");
+      parameter::declare(
+          prm, "Share of ends", "1",
+          NumberPattern({nullptr, 0., 1., true, false}),
+          parameter::advanced("1", "0.5"),
+          "Part of `Load/Pressing force` and `Load/Force` on the first and "
+          "last mass. With 0.5 the chain is a bar of linear finite elements.");
       prm.leave_subsection();
     }
 
     void ChainScene::declare_loads(ParameterHandler &prm) const
     {
       const std::string along =
-          " One formula of t for each direction along the plane, separated by "
-          "semicolons; those that are missing are 0.";
+          " One formula in t for each direction along the plane, separated by "
+          "semicolons; missing ones are 0.";
       prm.enter_subsection("Load");
-      prm.declare_entry("Pressing force", "1", FormulaPattern::one(),
-                        "Force on each mass towards the plane, a formula of x "
-                        "and t.");
-      prm.declare_entry("Force", "0", FormulaPattern::vector(),
-                        "Force on each mass along the plane, in x and t."
-                            + along);
-      prm.declare_entry("Force on first", "0", FormulaPattern::vector(),
-                        "Force along the plane on the first mass alone."
-                            + along);
-      prm.declare_entry("Driven end", "0", FormulaPattern::vector(),
-                        "Displacement of the far end of `Masses/End spring` "
-                        "along the plane."
-                            + along);
+      parameter::declare(
+          prm, "Pressing force", "1", TextPattern::formula(),
+          parameter::basic("force", "1 + x"),
+          "Force on each mass towards the plane: a formula in x and t.");
+      parameter::declare(prm, "Force", "0", TextPattern::vector(),
+                         parameter::basic("force", "0.2*t"),
+                         "Force on each mass along the plane, in x and t."
+                             + along);
+      parameter::declare(prm, "Force on first", "0", TextPattern::vector(),
+                         parameter::advanced("force", "0.2*t"),
+                         "Force along the plane on the first mass alone."
+                             + along);
+      parameter::declare(
+          prm, "Driven end", "0", TextPattern::vector(),
+          parameter::basic("length", "0.1*t"),
+          "Displacement of the far end of `Masses/End spring` along the plane."
+              + along);
       prm.leave_subsection();
       prm.enter_subsection("Friction");
-      prm.declare_entry("Coefficient", "0.3", FormulaPattern::one(),
-                        "Coulomb's coefficient mu, a formula of x and t: the "
-                        "friction on a mass is at most mu times the contact "
-                        "force. 0: frictionless.");
-      prm.declare_entry("Cap", "", FormulaPattern::one(),
-                        "Largest friction on a mass, a force, formula of x and "
-                        "t (Tresca); empty: none.");
+      parameter::declare(prm, "Coefficient", "0.3", TextPattern::formula(),
+                         parameter::basic("1", "0.5"),
+                         "Coefficient mu of Coulomb friction, a formula in x "
+                         "and t: the friction force is at most mu times the "
+                         "contact force. 0: frictionless.");
+      parameter::declare(prm, "Cap", "", TextPattern::formula(),
+                         parameter::advanced("force", "2"),
+                         "Limit of the friction force on a mass (Tresca), a "
+                         "formula in x and t. Empty: none.");
       prm.leave_subsection();
     }
 
@@ -214,18 +230,16 @@ namespace abut::app
               "Load/Driven end", Weight::data,
               [](const SceneValues &values)
               { return values.number("Masses/End spring") > 0.; },
-              "it is the end of Masses/End spring, which is 0."),
+              "Masses/End spring is 0."),
           effective_if(
               "Friction/Cap", Weight::data,
               [](const SceneValues &values)
               { return values(coefficient_name) != "0"; },
-              "Friction/Coefficient is 0: give a large one for friction that "
-              "the cap alone bounds."),
+              "Friction/Coefficient is 0: set a large one for Tresca "
+              "friction."),
           without_time("Masses/Gap", "the gap at rest does not change."),
-          effective_if(
-              "Output/Pictures", Weight::setting,
-              [](const SceneValues &) { return false; },
-              "masses.csv has all there is to draw.")};
+          never_effective("Output/Pictures", Weight::setting,
+                          "the results are in masses.csv.")};
       for (const char *name : {"Spring", "Spacing", "Share of ends"})
         rules.push_back(effective_if(
             std::string("Masses/") + name, Weight::data,
@@ -302,6 +316,10 @@ namespace abut::app
       report.set("discretisation", "masses");
       report.set("dofs", chain.n_unknowns());
       report.set("constraints", chain.n);
+      report.print("  " + counted(chain.n, "mass", "masses") + " on a plane, "
+                   + std::to_string(chain.n_unknowns()) + " unknowns; "
+                   + law_in_words(method)
+                   + (has_friction ? ", friction" : ", no friction"));
       report.model("search", false, "the masses and their plane are given");
       report.model("friction", has_friction,
                    has_friction ? "Coulomb, mu = " + coefficient->text()
@@ -400,9 +418,10 @@ namespace abut::app
       }
       report.progress(
           "time " + short_number(time, 6) + "  open " + std::to_string(sum.open)
-          + "  stick " + std::to_string(sum.stick) + "  slip "
-          + std::to_string(sum.slip) + "  N = " + short_number(sum.normal)
-          + "  T = " + short_number(sum.friction()));
+              + "  stick " + std::to_string(sum.stick) + "  slip "
+              + std::to_string(sum.slip) + "  N = " + short_number(sum.normal)
+              + "  T = " + short_number(sum.friction()),
+          time / load_options.end_time);
     }
 
     void ChainScene::fill_summary(Report &report, const ChainSteps &steps,
@@ -438,11 +457,11 @@ namespace abut::app
     bool ChainScene::take_steps(Report &report, ChainSteps &steps)
     {
       LoadSteps load_steps(load_options);
-      std::string failure;
+      Message failure;
       while (!load_steps.is_finished() && failure.empty())
       {
         const double time = load_steps.target();
-        const std::string why = steps.solve(load_at(time), method);
+        const Message why = steps.solve(load_at(time), method);
         n_systems += steps.progress().step;
         if (why.empty())
         {
@@ -455,8 +474,8 @@ namespace abut::app
         }
         steps.reject();
         if (load_steps.reject())
-          report.progress("load step cut back to time "
-                          + short_number(load_steps.target(), 6) + ": " + why);
+          report.detail("load step cut back to time "
+                        + short_number(load_steps.target(), 6) + ": " + why);
         else
           failure = why;
       }

@@ -28,15 +28,15 @@ namespace abut::app
     }
 
     /** What a solve without an answer has seen. */
-    std::string explain(const abut_context *context, const abut_law *law,
-                        const abut_status status, const abut_reason reason,
-                        const abut_progress &progress)
+    Message explain(const abut_context *context, const abut_law *law,
+                    const abut_status status, const abut_reason reason,
+                    const abut_progress &progress)
     {
       if (status != ABUT_SUCCESS)
-        return coded(ABUT_FAILURE_FLOATING_BODY, abut_context_message(context));
+        return coded(ABUT_FAILURE_FLOATING_BODY, shim::core_message(context));
       const abut_failure failure = abut_reason_failure(reason, law, &progress);
       return coded(failure, failure == ABUT_FAILURE_STICK_SLIP
-                                ? abut_context_message(context)
+                                ? shim::core_message(context)
                                 : abut_reason_text(reason));
     }
   } // namespace
@@ -138,8 +138,8 @@ namespace abut::app
     shim::check(context.get(), abut_history_set(history.get(), &entries));
   }
 
-  std::string ChainSteps::solve(const ChainLoad &load,
-                                const MethodParameters &method)
+  Message ChainSteps::solve(const ChainLoad &load,
+                            const MethodParameters &method)
   {
     abut_strategy_options options = method.options;
     set_scales(chain, stiffness, load, options);
@@ -185,11 +185,11 @@ namespace abut::app
         pressure.data(), state.data(), nullptr, nullptr, &last_progress,
         &reason);
     if (status != ABUT_SUCCESS && status != ABUT_CALLBACK_FAILED)
-      return coded(ABUT_FAILURE_NOT_FINITE,
-                   std::string("forces and springs lead out of the range of "
-                               "numbers (")
-                       + abut_context_message(context.get())
-                       + "). Choose other units of lengths and forces.");
+      return coded(
+          ABUT_FAILURE_NOT_FINITE,
+          std::string("forces and springs exceed the range of numbers (")
+              + shim::core_message(context.get())
+              + "). Choose other units of lengths and forces.");
     if (status != ABUT_SUCCESS || reason != ABUT_REASON_CONVERGED)
       return explain(context.get(), options.law, status, reason, last_progress);
     for (std::size_t k = 0; k < id.size(); ++k)

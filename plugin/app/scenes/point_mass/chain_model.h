@@ -4,6 +4,7 @@
 
 #include "shim/handles.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dealii/method_parameters.h>
 #include <abut/dense_model.h>
 
@@ -66,7 +67,7 @@ namespace abut::app
     /** Solve for a load, from the last accepted step. Returns why there is no
      * answer, with a code; empty if there is one, which then waits for
      * accept() or reject(). */
-    std::string solve(const ChainLoad &load, const MethodParameters &method);
+    Message solve(const ChainLoad &load, const MethodParameters &method);
 
     /** The answer is where the next step begins. */
     void accept();

@@ -98,7 +98,7 @@ namespace abut::app
     const abut_status status =
         abut_mass_modify(context.get(), &matrix, candidate.data(), rule);
     if (status != ABUT_SUCCESS)
-      return abut_context_message(context.get());
+      return shim::core_message(context.get());
     for (std::size_t i = 0; i < n; ++i)
       for (std::int64_t e = start[i]; e < start[i + 1]; ++e)
         mass[i * n + column[e]] = value[e];
@@ -111,8 +111,8 @@ namespace abut::app
     if (kind == ABUT_TIME_MASS_LUMPED)
       lump();
     if (kind == ABUT_TIME_MASS_MODIFIED && !is_bar)
-      return "every mass of this row may touch the plane, and none is there "
-             "to take its mass";
+      return "every mass of this row may touch the plane, and no neighbour can "
+             "receive its mass";
     return kind == ABUT_TIME_MASS_MODIFIED ? hand_on(rule) : "";
   }
 } // namespace abut::app

@@ -192,10 +192,9 @@ namespace abut::app
   /** matrix y = residual + contact, with what the rows demand. Forces on the
    * masses, [size], go to @p pressure, which the iteration begins with unless
    * it is empty. */
-  std::string Motion::solve(const std::vector<double> &matrix,
-                            const std::vector<double> &residual,
-                            const Rows &rows, std::vector<double> &y,
-                            std::vector<double> &pressure)
+  Message Motion::solve(const std::vector<double> &matrix,
+                        const std::vector<double> &residual, const Rows &rows,
+                        std::vector<double> &y, std::vector<double> &pressure)
   {
     // Friction belongs to schemes that know velocities at contact.
     const bool has_friction = plane.friction > 0 && dimension > 1
@@ -234,7 +233,7 @@ namespace abut::app
     std::vector<double> forces(place.size(), 0.);
     for (std::size_t k = 0; k < place.size() && !pressure.empty(); ++k)
       forces[k] = pressure[place[k]];
-    const std::string failure =
+    const Message failure =
         solve_model(model, contact_options(matrix, residual, rows), y, forces);
     pressure.assign(residual.size(), 0.);
     for (std::size_t k = 0; k < place.size(); ++k)
@@ -245,10 +244,10 @@ namespace abut::app
   void Motion::require(const abut_status status) const
   {
     if (status != ABUT_SUCCESS)
-      throw std::range_error(abut_context_message(context.get()));
+      throw std::range_error(shim::core_message(context.get()));
   }
 
-  std::string Motion::why_unsolved(const bool not_finite) const
+  Message Motion::why_unsolved(const bool not_finite) const
   {
     const auto largest = [](const std::vector<double> &matrix)
     {
@@ -263,24 +262,24 @@ namespace abut::app
                               + " and springs of " + short_number(stiffness, 3);
     // Squares of these leave the range of numbers, and none is an answer.
     constexpr double most = 1e100;
-    const std::string what = abut_context_message(context.get());
+    const std::string what = shim::core_message(context.get());
     if (not_finite && std::max(mass, stiffness) < most)
-      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+      return coded(ABUT_FAILURE_BLOW_UP, "a value of the motion is infinite");
     if (not_finite || what.find("singular") == std::string::npos)
       return coded(ABUT_FAILURE_NOT_FINITE,
-                   sizes + " lead out of the range of numbers (" + what
+                   sizes + " exceed the range of numbers (" + what
                        + "). Choose other units of lengths, masses and times.");
     return coded(ABUT_FAILURE_FLOATING_BODY,
-                 "inertia vanishes beside the stiffness: " + sizes
-                     + " have no digits in common in a step, and nothing else "
-                       "holds what is free. Use a larger density or mass, "
-                       "a shorter Time/Step, or less stiffness.");
+                 "inertia is below round-off of the stiffness: " + sizes
+                     + " differ too much, and rigid body modes are free. Use a "
+                       "larger density or mass, a smaller Time stepping/Step "
+                       "size, or less stiffness.");
   }
 
-  std::string Motion::solve_model(const abut_dense_model &model,
-                                  const abut_strategy_options &options,
-                                  std::vector<double> &y,
-                                  std::vector<double> &forces)
+  Message Motion::solve_model(const abut_dense_model &model,
+                              const abut_strategy_options &options,
+                              std::vector<double> &y,
+                              std::vector<double> &forces)
   {
     abut_progress progress = {};
     abut_reason reason = ABUT_REASON_NONE;
@@ -343,7 +342,7 @@ namespace abut::app
   }
 
   /** M a = f - K u + contact of what touches and does not leave. */
-  std::string Motion::begin_acceleration(const std::vector<double> &load)
+  Message Motion::begin_acceleration(const std::vector<double> &load)
   {
     const std::size_t n = system.size();
     std::vector<double> matrix = system.mass, forces,
@@ -361,9 +360,9 @@ namespace abut::app
     return solve(matrix, residual, rows, a, forces);
   }
 
-  std::string Motion::start(const std::vector<double> &displacement,
-                            const std::vector<double> &velocity,
-                            const std::vector<double> &load)
+  Message Motion::start(const std::vector<double> &displacement,
+                        const std::vector<double> &velocity,
+                        const std::vector<double> &load)
   {
     u = displacement;
     v = velocity;
@@ -387,12 +386,12 @@ namespace abut::app
   }
 
   /** What the plane makes of where the masses would go. */
-  std::string Motion::project(const double dt, std::vector<double> &predicted)
+  Message Motion::project(const double dt, std::vector<double> &predicted)
   {
     std::vector<double> y, forces;
     const std::vector<double> nothing(predicted.size(), 0.);
-    const std::string failure = solve(step_matrix(dt, ABUT_TIME_PROJECTION),
-                                      nothing, rows_at(predicted), y, forces);
+    const Message failure = solve(step_matrix(dt, ABUT_TIME_PROJECTION),
+                                  nothing, rows_at(predicted), y, forces);
     if (!failure.empty())
       return failure;
     std::vector<double> projected = predicted;
@@ -405,12 +404,12 @@ namespace abut::app
     return "";
   }
 
-  std::string Motion::implicit_step(const double dt, std::vector<double> &x,
-                                    const std::vector<double> &before,
-                                    const std::vector<double> &after)
+  Message Motion::implicit_step(const double dt, std::vector<double> &x,
+                                const std::vector<double> &before,
+                                const std::vector<double> &after)
   {
     std::vector<double> y, forces;
-    const std::string failure =
+    const Message failure =
         solve(step_matrix(dt, ABUT_TIME_STEP),
               residual_at(dt, x, before, after), rows_at(x), y, forces);
     if (!failure.empty())
@@ -425,9 +424,9 @@ namespace abut::app
 
   /* Newton's method: forces are monotone and convex in the gap at the end, so
    * that there is one answer, which a single mass always comes to. */
-  std::string Motion::step_on_springs(const double dt, std::vector<double> &x,
-                                      const std::vector<double> &before,
-                                      const std::vector<double> &after)
+  Message Motion::step_on_springs(const double dt, std::vector<double> &x,
+                                  const std::vector<double> &before,
+                                  const std::vector<double> &after)
   {
     constexpr int most_steps = 100;
     constexpr double small = 1e-12;
@@ -449,7 +448,7 @@ namespace abut::app
         residual[i] += springs[i];
       }
       nothing.clear();
-      const std::string failure = solve(tangent, residual, {}, y, nothing);
+      const Message failure = solve(tangent, residual, {}, y, nothing);
       if (!failure.empty())
         return failure;
       double change = 0;
@@ -471,10 +470,10 @@ namespace abut::app
                  "of Newton's method");
   }
 
-  std::string Motion::explicit_step(const double dt,
-                                    const std::vector<double> &place,
-                                    const std::vector<double> &before,
-                                    const std::vector<double> &after)
+  Message Motion::explicit_step(const double dt,
+                                const std::vector<double> &place,
+                                const std::vector<double> &before,
+                                const std::vector<double> &after)
   {
     const std::vector<double> nothing(place.size(), 0.);
     std::vector<double> residual = residual_at(dt, nothing, before, after),
@@ -492,7 +491,7 @@ namespace abut::app
     const abut_time_state now = state(dt);
     const abut_status status = abut_time_end(&now, residual.data());
     if (status == ABUT_NOT_FINITE)
-      return coded(ABUT_FAILURE_BLOW_UP, "a number of the motion is infinite");
+      return coded(ABUT_FAILURE_BLOW_UP, "a value of the motion is infinite");
     require(status);
     return "";
   }
@@ -508,12 +507,12 @@ namespace abut::app
     }
   }
 
-  std::string Motion::step(const double dt, const std::vector<double> &before,
-                           const std::vector<double> &after)
+  Message Motion::step(const double dt, const std::vector<double> &before,
+                       const std::vector<double> &after)
   {
     const std::vector<double> old = u;
     std::fill(force.begin(), force.end(), 0.);
-    std::string failure;
+    Message failure;
     try
     {
       failure = solve_step(dt, before, after);
@@ -526,9 +525,8 @@ namespace abut::app
     return failure;
   }
 
-  std::string Motion::solve_step(const double dt,
-                                 const std::vector<double> &before,
-                                 const std::vector<double> &after)
+  Message Motion::solve_step(const double dt, const std::vector<double> &before,
+                             const std::vector<double> &after)
   {
     if (scheme.impulses)
     {
@@ -540,7 +538,7 @@ namespace abut::app
     std::vector<double> x(u.size());
     const abut_time_state now = state(dt);
     require(abut_time_begin(&now, x.data()));
-    const std::string failure = scheme.projects ? project(dt, x) : "";
+    const Message failure = scheme.projects ? project(dt, x) : "";
     return !failure.empty()       ? failure
            : scheme.keeps_springs ? step_on_springs(dt, x, before, after)
            : scheme.beta > 0      ? implicit_step(dt, x, before, after)

@@ -5,6 +5,7 @@
 #include "mass_row.h"
 #include "shim/handles.h"
 
+#include <abut/dealii/coded.h>
 #include <abut/dense_model.h>
 
 #include <string>
@@ -31,14 +32,14 @@ namespace abut::app
 
     /** Begin, with the loads there: velocities and displacements [size].
      * Returns why that cannot be; else empty. */
-    std::string start(const std::vector<double> &displacement,
-                      const std::vector<double> &velocity,
-                      const std::vector<double> &load);
+    Message start(const std::vector<double> &displacement,
+                  const std::vector<double> &velocity,
+                  const std::vector<double> &load);
 
     /** A step of length @p dt with the loads at its ends [size]. Returns why
      * there is none; empty if it was done. */
-    std::string step(double dt, const std::vector<double> &load_before,
-                     const std::vector<double> &load);
+    Message step(double dt, const std::vector<double> &load_before,
+                 const std::vector<double> &load);
 
     double kinetic() const;
     double strain() const;
@@ -88,21 +89,20 @@ namespace abut::app
     Rows rows_at(const std::vector<double> &at) const;
     void append_point(abut_points *points, const Row &row,
                       bool has_friction) const;
-    std::string solve(const std::vector<double> &matrix,
-                      const std::vector<double> &residual, const Rows &rows,
-                      std::vector<double> &y, std::vector<double> &pressure);
-    std::string solve_step(double dt, const std::vector<double> &before,
-                           const std::vector<double> &after);
+    Message solve(const std::vector<double> &matrix,
+                  const std::vector<double> &residual, const Rows &rows,
+                  std::vector<double> &y, std::vector<double> &pressure);
+    Message solve_step(double dt, const std::vector<double> &before,
+                       const std::vector<double> &after);
     /** Throw std::range_error if the core could not do it: its arguments are
      * numbers of the data. */
     void require(abut_status status) const;
     /** Why masses and springs have no answer, after a call of the core failed.
      */
-    std::string why_unsolved(bool not_finite = false) const;
-    std::string solve_model(const abut_dense_model &model,
-                            const abut_strategy_options &options,
-                            std::vector<double> &y,
-                            std::vector<double> &forces);
+    Message why_unsolved(bool not_finite = false) const;
+    Message solve_model(const abut_dense_model &model,
+                        const abut_strategy_options &options,
+                        std::vector<double> &y, std::vector<double> &forces);
     abut_strategy_options contact_options(const std::vector<double> &matrix,
                                           const std::vector<double> &residual,
                                           const Rows &rows) const;
@@ -111,29 +111,29 @@ namespace abut::app
                                     const std::vector<double> &before,
                                     const std::vector<double> &after);
     void add_force(const std::vector<double> &forces, double part);
-    std::string begin_acceleration(const std::vector<double> &load);
-    std::string project(double dt, std::vector<double> &predicted);
-    std::string implicit_step(double dt, std::vector<double> &x,
-                              const std::vector<double> &before,
-                              const std::vector<double> &after);
-    std::string step_on_springs(double dt, std::vector<double> &x,
-                                const std::vector<double> &before,
-                                const std::vector<double> &after);
-    std::string explicit_step(double dt, const std::vector<double> &place,
-                              const std::vector<double> &before,
-                              const std::vector<double> &after);
+    Message begin_acceleration(const std::vector<double> &load);
+    Message project(double dt, std::vector<double> &predicted);
+    Message implicit_step(double dt, std::vector<double> &x,
+                          const std::vector<double> &before,
+                          const std::vector<double> &after);
+    Message step_on_springs(double dt, std::vector<double> &x,
+                            const std::vector<double> &before,
+                            const std::vector<double> &after);
+    Message explicit_step(double dt, const std::vector<double> &place,
+                          const std::vector<double> &before,
+                          const std::vector<double> &after);
     void finish(double dt, const std::vector<double> &old,
                 const std::vector<double> &before,
                 const std::vector<double> &after);
 
     // Schemes with impulses, motion_impulses.cc.
-    std::string impulse_step(double dt, const std::vector<double> &load);
-    std::string impact(double dt);
-    std::string glide(double length, const std::vector<double> &load,
-                      std::vector<double> &end, std::vector<double> &forces);
-    std::string glide_to_touch(double &length, const std::vector<double> &load,
-                               std::vector<double> &end,
-                               std::vector<double> &forces);
+    Message impulse_step(double dt, const std::vector<double> &load);
+    Message impact(double dt);
+    Message glide(double length, const std::vector<double> &load,
+                  std::vector<double> &end, std::vector<double> &forces);
+    Message glide_to_touch(double &length, const std::vector<double> &load,
+                           std::vector<double> &end,
+                           std::vector<double> &forces);
     void end_part(double length, double dt, const std::vector<double> &end,
                   const std::vector<double> &forces);
     double least_gap(double length, const std::vector<double> &end) const;

@@ -34,7 +34,7 @@ namespace abut::app
            && v[height(mass)] < -still * speed_scale;
   }
 
-  std::string Motion::impact(const double dt)
+  Message Motion::impact(const double dt)
   {
     Rows rows;
     for (const std::size_t mass : system.candidates)
@@ -50,7 +50,7 @@ namespace abut::app
     }
     std::vector<double> y, forces;
     const std::vector<double> nothing(u.size(), 0.);
-    const std::string failure = solve(system.mass, nothing, rows, y, forces);
+    const Message failure = solve(system.mass, nothing, rows, y, forces);
     if (!failure.empty())
       return failure;
     const double before = kinetic();
@@ -85,18 +85,16 @@ namespace abut::app
   /** Where a part of the step leads, with what is on the plane staying there
    * or leaving. @p forces are those to begin with, and then those of the part.
    */
-  std::string Motion::glide(const double length,
-                            const std::vector<double> &load,
-                            std::vector<double> &end,
-                            std::vector<double> &forces)
+  Message Motion::glide(const double length, const std::vector<double> &load,
+                        std::vector<double> &end, std::vector<double> &forces)
   {
     end.resize(u.size());
     const abut_time_state now = state(length);
     require(abut_time_begin(&now, end.data()));
     std::vector<double> y;
-    const std::string failure = solve(step_matrix(length, ABUT_TIME_STEP),
-                                      residual_at(length, end, load, load),
-                                      closed_rows(length), y, forces);
+    const Message failure = solve(step_matrix(length, ABUT_TIME_STEP),
+                                  residual_at(length, end, load, load),
+                                  closed_rows(length), y, forces);
     for (std::size_t i = 0; i < y.size(); ++i)
       end[i] += y[i];
     return failure;
@@ -121,12 +119,12 @@ namespace abut::app
 
   /** Shorten a part of the step so that it ends where the first mass touches:
    * the false position, halved where one side stays (Illinois). */
-  std::string Motion::glide_to_touch(double &length,
-                                     const std::vector<double> &load,
-                                     std::vector<double> &end,
-                                     std::vector<double> &forces)
+  Message Motion::glide_to_touch(double &length,
+                                 const std::vector<double> &load,
+                                 std::vector<double> &end,
+                                 std::vector<double> &forces)
   {
-    std::string failure;
+    Message failure;
     const auto height_at = [&](const double where)
     {
       failure = glide(where, load, end, forces);
@@ -189,14 +187,13 @@ namespace abut::app
     time += length;
   }
 
-  std::string Motion::impulse_step(const double dt,
-                                   const std::vector<double> &load)
+  Message Motion::impulse_step(const double dt, const std::vector<double> &load)
   {
     double left = dt;
     std::vector<double> end, forces;
     for (int k = 0; k < most_impacts; ++k)
     {
-      std::string failure;
+      Message failure;
       if (std::any_of(system.candidates.begin(), system.candidates.end(),
                       [&](const std::size_t mass) { return comes_in(mass); }))
         failure = impact(dt);

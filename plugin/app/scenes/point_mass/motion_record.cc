@@ -110,19 +110,17 @@ namespace abut::app
     }
     if (verdict != ABUT_TIME_BLOWS_UP)
       return true;
-    report.warn(coded(ABUT_FAILURE_BLOW_UP,
-                      "the motion blows up: at time " + short_number(time, 6)
-                          + " it has more than a hundred times the energy "
-                            "that there was; "
-                          + (scheme.beta > 0.
-                                 ? "the step is long beside the oscillations, "
-                                   "so that inertia has no digits left beside "
-                                   "the stiffness, or the start contradicts "
-                                   "the fixed end: look at the units of "
-                                   "lengths, masses and times, and make "
-                                   "Time/Step smaller"
-                                 : "make Time/Step smaller, or take an "
-                                   "implicit Time/Scheme")));
+    report.warn(
+        coded(ABUT_FAILURE_BLOW_UP,
+              "the motion is unstable: at time " + short_number(time, 6)
+                  + " it has more than a hundred times its initial energy; "
+                  + (scheme.beta > 0.
+                         ? "the step is too long for the oscillations, or the "
+                           "start contradicts the fixed end. Check the units "
+                           "of lengths, masses and times, and use a smaller "
+                           "Time stepping/Step size"
+                         : "use a smaller Time stepping/Step size, or an "
+                           "implicit Time stepping/Scheme")));
     return false;
   }
 
@@ -133,14 +131,13 @@ namespace abut::app
     if (gains)
       report.warn(coded(
           ABUT_FAILURE_ENERGY_GAIN,
-          "the scheme has made energy, " + short_number(100. * balance.gain, 3)
-              + " % of what there was, beyond its bound since time "
+          "the energy has grown by " + short_number(100. * balance.gain, 3)
+              + " % and exceeds the limit of the scheme since time "
               + short_number(gain_time, 6) + ": take "
-              + (is_bounded
-                     ? "the mass that the scheme is made for, Time/Mass = auto"
-                     : "hht or contact stabilised with the mass that they are "
-                       "made for")
-              + ", or a smaller Time/Step"));
+              + (is_bounded ? "Time stepping/Mass matrix = auto"
+                            : "hht or contact stabilised with Time "
+                              "stepping/Mass matrix = auto")
+              + ", or a smaller Time stepping/Step size"));
     const auto fall = static_cast<std::size_t>(balance.fall_at);
     if (loses && !lost && fall > 0)
       report.warn(text_of_loss(scheme, balance, entries.at(fall - 1).time,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 /* Scenes of kind `motion`: point masses and bars in time, above a rigid plane.
  */
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "app/report/json.h"
 #include "app/restart/disk.h"
 #include "app/scenes/method_effects.h"
+#include "app/scenes/method_words.h"
 #include "app/scenes/time_parameters.h"
 #include "motion.h"
 #include "motion_record.h"
@@ -14,6 +14,8 @@
 #include "row_formulas.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -80,68 +82,92 @@ namespace abut::app
     void MotionScene::declare_masses(ParameterHandler &prm) const
     {
       prm.enter_subsection("Masses");
-      prm.declare_entry("Number", "1", MotionPatterns::Integer(1, 300),
-                        "Masses in a row. In 1 dimension the row stands on the "
-                        "plane, and the first mass may touch it; in more it "
-                        "lies above the plane along x, and each may.");
-      prm.declare_entry("Mass", "1", NumberPattern::positive(),
-                        "Of each mass.");
-      prm.declare_entry("Spacing", "1", NumberPattern::positive(),
-                        "Distance of neighbours: mass i, counted from 0, has x "
-                        "= i times this in the formulas of this scene.");
-      prm.declare_entry("Spring", "0", NumberPattern::from(0),
-                        "Stiffness between neighbours along the row (in 3D "
-                        "along x and y), force per length.");
-      prm.declare_entry("Wall spring", "0", NumberPattern::from(0),
-                        "Stiffness of the spring from the last mass to a wall, "
-                        "along the row; 0: there is none.");
+      parameter::declare(
+          prm, "Number", "1", MotionPatterns::Integer(1, 300),
+          parameter::basic("1", "10"),
+          "Number of masses in a row. In 1D the row stands on the plane, and "
+          "the first mass may touch it. In 2D and 3D the row lies above the "
+          "plane along x, and each mass may touch it.");
+      parameter::declare(prm, "Mass", "1", NumberPattern::positive(),
+                         parameter::basic("mass", "2"), "Mass of each point.");
+      parameter::declare(prm, "Spacing", "1", NumberPattern::positive(),
+                         parameter::basic("length", "0.5"),
+                         "Distance between neighbours. Formulas see mass i, "
+                         "counted from 0, at x = i times this distance.");
+      parameter::declare(prm, "Spring", "0", NumberPattern::from(0),
+                         parameter::basic("force/length", "100"),
+                         "Stiffness of the springs between neighbours along "
+                         "the row (3D: along x and y).");
+      parameter::declare(prm, "Wall spring", "0", NumberPattern::from(0),
+                         parameter::advanced("force/length", "10"),
+                         "Stiffness of the spring between the last mass and a "
+                         "wall, along the row. 0: no spring.");
       prm.leave_subsection();
       prm.enter_subsection("Bar");
-      prm.declare_entry("Elements", "0", MotionPatterns::Integer(0, 300),
-                        "A bar that stands on the plane, of so many linear "
-                        "elements, instead of point masses; 0: none.");
-      prm.declare_entry("Length", "1", NumberPattern::positive(),
-                        "Of the bar at rest; its nodes have x from 0 (near the "
-                        "plane) to this in the formulas of this scene.");
-      prm.declare_entry("Stiffness", "1", NumberPattern::positive(),
-                        "Modulus times area, a force.");
-      prm.declare_entry("Density", "1", NumberPattern::positive(),
-                        "Mass per length.");
-      prm.declare_entry("Fixed end", "false", MotionPatterns::Bool(),
-                        "The end far from the plane does not move.");
+      parameter::declare(prm, "Elements", "none",
+                         OrWord(MotionPatterns::Integer(1, 300), "none"),
+                         parameter::basic("1", "40"),
+                         "Number of linear elements of a bar that stands on "
+                         "the plane, instead of point masses.");
+      parameter::declare(prm, "Length", "1", NumberPattern::positive(),
+                         parameter::basic("length", "10"),
+                         "Length of the bar at rest. Its nodes have x from 0, "
+                         "near the plane, to this length.");
+      parameter::declare(prm, "Stiffness", "1", NumberPattern::positive(),
+                         parameter::basic("force", "900"),
+                         "Young modulus times cross section of the bar.");
+      parameter::declare(prm, "Density", "1", NumberPattern::positive(),
+                         parameter::basic("mass/length", "1"),
+                         "Mass of the bar per length.");
+      parameter::declare(prm, "Fixed end", "false", MotionPatterns::Bool(),
+                         parameter::advanced(),
+                         "Whether the end far from the plane is fixed.");
       prm.leave_subsection();
     }
 
     void MotionScene::declare_loads(ParameterHandler &prm) const
     {
       const std::string by_direction =
-          " One formula for each direction, separated by semicolons, those "
-          "along the plane first, the height last; those that are missing are "
-          "0.";
+          " Formulas are separated by semicolons, directions along the plane "
+          "first, height last; missing ones are 0.";
       prm.enter_subsection("Motion");
-      prm.declare_entry("Gap", "0", NumberPattern::from(0),
-                        "Height of the row over the plane where displacements "
-                        "are 0.");
-      prm.declare_entry("Initial displacement", "0", FormulaPattern::vector(),
-                        "In x." + by_direction);
-      prm.declare_entry("Initial velocity", "0", FormulaPattern::vector(),
-                        "In x." + by_direction);
-      prm.declare_entry("Acceleration", "0", FormulaPattern::vector(),
-                        "Load by mass, such as gravity, in x and t."
-                            + by_direction);
-      prm.declare_entry("Force on first", "0", FormulaPattern::vector(),
-                        "Force on the first mass alone, in t." + by_direction);
+      parameter::declare(
+          prm, "Gap", "0", NumberPattern::from(0),
+          parameter::basic("length", "5"),
+          "Height of the row above the plane at displacement 0.");
+      parameter::declare(
+          prm, "Initial displacement", "0", TextPattern::vector(),
+          parameter::advanced("length", "0.1*x"),
+          "Displacement at time 0: a formula in x for each direction."
+              + by_direction);
+      parameter::declare(
+          prm, "Initial velocity", "0", TextPattern::vector(),
+          parameter::basic("length/time", "1; -10"),
+          "Velocity at time 0: a formula in x for each direction."
+              + by_direction);
+      parameter::declare(prm, "Acceleration", "0", TextPattern::vector(),
+                         parameter::basic("length/time^2", "-9.81"),
+                         "Load per mass, such as gravity: a formula in x and t "
+                         "for each direction."
+                             + by_direction);
+      parameter::declare(
+          prm, "Force on first", "0", TextPattern::vector(),
+          parameter::advanced("force", "sin(t)"),
+          "Force on the first mass: a formula in t for each direction."
+              + by_direction);
       prm.leave_subsection();
       prm.enter_subsection("Contact");
-      prm.declare_entry("Friction", "0", NumberPattern::between(0, 1e6),
-                        "Coulomb's coefficient, for `velocity level`. What is "
-                        "larger is no other motion, and beyond round-off.");
-      prm.declare_entry("Penalty", "1", NumberPattern::positive(),
-                        "Of `central difference` and `energy momentum`: "
-                        "stiffness of the springs "
-                        "that stand for the plane, as a multiple of `Masses/"
-                        "Spring`, or of a bar's Stiffness by the length of an "
-                        "element.");
+      parameter::declare(
+          prm, "Friction", "0", NumberPattern::between(0, 1e6),
+          parameter::basic("1", "0.3"),
+          "Coefficient of Coulomb friction of `velocity level`. Values above "
+          "1e6 give the same motion and lose precision.");
+      parameter::declare(
+          prm, "Penalty factor", "1", NumberPattern::positive(),
+          parameter::advanced("stiffness of the row", "10"),
+          "Stiffness of the springs that stand for the plane, for `central "
+          "difference` and `energy momentum`. Unit: `Masses/Spring`, for a bar "
+          "its stiffness divided by the length of an element.");
       prm.leave_subsection();
     }
 
@@ -161,16 +187,18 @@ namespace abut::app
       declare_loads(prm);
       TimeParameters::declare(
           prm, scheme_words(),
-          "0, of a bar: the time that a wave needs for an element, or .9 of "
-          "the limit of an explicit scheme.");
-      prm.enter_subsection("Time");
-      prm.declare_entry(
-          "Mass", "auto",
+          "auto, for bars only: the time of a wave through an element, or 0.9 "
+          "of the limit of an explicit scheme.");
+      prm.enter_subsection("Time stepping");
+      parameter::declare(
+          prm, "Mass matrix", "auto",
           MotionPatterns::Selection("auto|consistent|lumped|modified|modified "
                                     "with centre"),
-          "The mass matrix of a bar. modified: the node that may touch the "
-          "plane has no mass, its neighbour has it; with centre: such that the "
-          "centre of mass stays, too. auto: what the scheme is made for.");
+          parameter::advanced(),
+          "Mass matrix of a bar. consistent: of the elements. lumped: row "
+          "sums. modified: the node at the plane has no mass, its neighbour "
+          "has it. modified with centre: the same with the centre of mass "
+          "unchanged. auto: as the scheme needs it.");
       prm.leave_subsection();
     }
 
@@ -178,7 +206,7 @@ namespace abut::app
     {
       prm.enter_subsection("Bar");
       const auto elements =
-          static_cast<std::size_t>(prm.get_integer("Elements"));
+          static_cast<std::size_t>(parameter::number_or_zero(prm, "Elements"));
       const double length = prm.get_double("Length"),
                    stiffness = prm.get_double("Stiffness"),
                    density = prm.get_double("Density");
@@ -188,8 +216,8 @@ namespace abut::app
       if (!row.is_bar)
         return;
       if (row.dimension > 1)
-        throw InputError("Bar/Elements", "a bar moves along itself: set "
-                                         "Dimension = 1.");
+        throw InputError("Bar/Elements",
+                         "a bar is one-dimensional: set Dimension = 1.");
       row.n = elements + (row.fixed_end ? 0 : 1);
       spacing = length / static_cast<double>(elements);
       row.spring = stiffness / spacing;
@@ -226,14 +254,14 @@ namespace abut::app
       prm.leave_subsection();
       prm.enter_subsection("Contact");
       plane.friction = prm.get_double("Friction");
-      penalty_factor = prm.get_double("Penalty");
+      penalty_factor = prm.get_double("Penalty factor");
       prm.leave_subsection();
     }
 
     void MotionScene::parse_mass(ParameterHandler &prm)
     {
-      prm.enter_subsection("Time");
-      const std::string word = prm.get("Mass");
+      prm.enter_subsection("Time stepping");
+      const std::string word = prm.get("Mass matrix");
       prm.leave_subsection();
       mass_kind = static_cast<abut_time_mass>(time.scheme.mass);
       // Point masses are what they are; there is nobody to take theirs.
@@ -264,11 +292,11 @@ namespace abut::app
         plane.penalty =
             penalty_factor * (row.n > 1 ? row.spring : row.wall_spring);
         if (plane.penalty == 0.)
-          throw InputError("Contact/Penalty",
-                           std::string(time.scheme.name)
-                               + " takes the stiffness of the plane from that "
-                                 "of the row, which has none: use velocity "
-                                 "level.");
+          throw InputError(
+              "Contact/Penalty factor",
+              std::string(time.scheme.name)
+                  + " derives the stiffness of the plane from the row, whose "
+                    "stiffness is 0: use velocity level.");
       }
     }
 
@@ -278,7 +306,8 @@ namespace abut::app
       {
         return [names](const SceneValues &values)
         {
-          return std::find(names.begin(), names.end(), values("Time/Scheme"))
+          return std::find(names.begin(), names.end(),
+                           values("Time stepping/Scheme"))
                  != names.end();
         };
       };
@@ -290,40 +319,45 @@ namespace abut::app
       { return values.number("Masses/Number") > 1.; };
       EffectRules rules = {
           effective_if("Masses/*", Weight::data, no_bar,
-                       "Bar/Elements makes a bar instead of masses."),
+                       "Bar/Elements replaces the masses by a bar."),
           effective_if("Masses/Spring", Weight::data, is_row,
                        "there is one mass."),
           effective_if("Masses/Spacing", Weight::data, is_row,
                        "there is one mass."),
-          effective_if("Time/Mass", Weight::data, is_bar,
-                       "point masses are lumped: give a Bar."),
+          effective_if(
+              "Time stepping/Mass matrix", Weight::data, is_bar,
+              "point masses are lumped; it belongs to bars (Bar/Elements)."),
           effective_if("Contact/Friction", Weight::data,
                        scheme_is({"velocity level"}),
-                       "friction of masses is that of velocity level."),
+                       "friction of masses needs Time stepping/Scheme = "
+                       "velocity level."),
           effective_if(
               "Contact/Friction", Weight::data,
               [](const SceneValues &values)
               { return values("Dimension") != "1"; },
               "the masses do not move along the plane: set Dimension = 2."),
-          effective_if("Contact/Penalty", Weight::data,
+          effective_if("Contact/Penalty factor", Weight::data,
                        scheme_is({"central difference", "energy momentum"}),
                        "only central difference and energy momentum have "
                        "springs for the plane."),
-          without_time("Motion/Initial displacement", "it is that at time 0."),
-          without_time("Motion/Initial velocity", "it is that at time 0.")};
+          without_time("Motion/Initial displacement",
+                       "it is the state at time 0."),
+          without_time("Motion/Initial velocity",
+                       "it is the state at time 0.")};
       for (const char *name : {"Length", "Stiffness", "Density", "Fixed end"})
         rules.push_back(effective_if(std::string("Bar/") + name, Weight::data,
-                                     is_bar, "Bar/Elements is 0."));
+                                     is_bar,
+                                     "it belongs to bars (Bar/Elements)."));
       const std::vector<std::pair<const char *, const char *>> of_schemes = {
-          {"Alpha", "hht"},
-          {"Rho infinity", "generalised alpha"},
-          {"Beta", "newmark"},
-          {"Gamma", "newmark"},
+          {"HHT alpha", "hht"},
+          {"Generalised alpha spectral radius", "generalised alpha"},
+          {"Newmark beta", "newmark"},
+          {"Newmark gamma", "newmark"},
           {"Restitution", "velocity level"}};
       for (const auto &[name, scheme] : of_schemes)
-        rules.push_back(effective_if(std::string("Time/") + name,
-                                     Weight::setting, scheme_is({scheme}),
-                                     std::string("it is of ") + scheme + "."));
+        rules.push_back(effective_if(
+            std::string("Time stepping/") + name, Weight::setting, scheme_is({scheme}),
+            std::string("it belongs to ") + scheme + "."));
       return rules;
     }
 
@@ -332,7 +366,7 @@ namespace abut::app
       MassSystem system(row);
       const std::string why = system.use_mass(mass_kind, mass_rule);
       if (!why.empty())
-        throw InputError("Time/Mass", why + ".");
+        throw InputError("Time stepping/Mass matrix", why + ".");
       return system;
     }
 
@@ -366,7 +400,7 @@ namespace abut::app
         if (height < -1e-12 * (plane.gap + std::abs(u)))
           throw InputError("Motion/Initial displacement",
                            "mass " + std::to_string(mass + 1)
-                               + " begins below the plane, by "
+                               + " starts below the plane, by "
                                + short_number(-height)
                                + ": Motion/Gap and its displacement must not "
                                  "be negative together.");
@@ -400,10 +434,11 @@ namespace abut::app
       }
       catch (const std::range_error &error)
       {
-        throw InputError(row.is_bar ? "Bar/Stiffness" : "Masses/Spring",
-                         std::string("it leads out of the range of numbers "
-                                     "together with the masses (")
-                             + error.what() + ").");
+        throw InputError(
+            row.is_bar ? "Bar/Stiffness" : "Masses/Spring",
+            std::string(
+                "it exceeds the range of numbers together with the masses (")
+                + error.what() + ").");
       }
     }
 
@@ -426,6 +461,11 @@ namespace abut::app
       report.set("discretisation", row.is_bar ? "bar" : "masses");
       report.set("dofs", system.size());
       report.set("constraints", system.candidates.size());
+      report.print(
+          "  " + (row.is_bar ? "a bar" : counted(row.n, "mass", "masses"))
+          + ", " + counted(system.size(), "unknown", "unknowns")
+          + "; in time by "
+          + time.scheme.name + ", " + std::to_string(n_steps()) + " steps");
       report.model("search", false, "the masses and their plane are given");
       report.model("time", true,
                    std::string(time.scheme.name) + ", mass " + masses[mass_kind]
@@ -457,7 +497,7 @@ namespace abut::app
       {
         const double now = k == n ? time.end : k * dt;
         const std::vector<double> after = load_at(system, now);
-        const std::string failure = motion.step(dt, before, after);
+        const Message failure = motion.step(dt, before, after);
         if (!failure.empty())
         {
           report.warn(failure + " (at time " + short_number(now, 6) + ")");
@@ -467,7 +507,7 @@ namespace abut::app
         if (!record.add(report, motion, now))
           return false;
         if (k * std::size_t(20) / n != (k - 1) * std::size_t(20) / n)
-          report.progress(record.line(k, n));
+          report.progress(record.line(k, n), double(k) / n);
         before = after;
       }
       return record.judge_end(report);
@@ -542,8 +582,8 @@ namespace abut::app
         report.warn(coded(ABUT_FAILURE_BLOW_UP,
                           "the time step is above the limit of the scheme, "
                               + short_number(limit, 4)
-                              + ": make Time/Step smaller"));
-      const std::string failure = motion.start(
+                              + ": use a smaller Time stepping/Step size"));
+      const Message failure = motion.start(
           start_of(system), values(*velocity, 0.), load_at(system, 0.));
       if (!failure.empty())
       {

@@ -10,10 +10,13 @@
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/method_effects.h"
+#include "app/scenes/method_words.h"
 #include "point_mass_model.h"
 
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -76,9 +79,9 @@ namespace abut::app
       for (std::size_t i = 0; i < n; ++i)
       {
         if (stiffness[i][i] < 0)
-          throw InputError(stiffness_name, "the diagonal has a negative entry: "
-                                           "the masses would not be in stable "
-                                           "balance.");
+          throw InputError(stiffness_name,
+                           "the diagonal has a negative entry: the equilibrium "
+                           "would be unstable.");
         for (std::size_t j = 0; j < i; ++j)
           if (stiffness[i][j] != stiffness[j][i])
             throw InputError(stiffness_name, "the matrix is not symmetric.");
@@ -136,44 +139,52 @@ namespace abut::app
     void PointMass::declare(ParameterHandler &prm) const
     {
       prm.enter_subsection("Masses");
-      prm.declare_entry(
-          "Stiffness", "1", Patterns::Anything(),
-          "Stiffness matrix K of the springs, force per length: "
-          "n rows of n numbers, rows separated by ';'. Symmetric, "
-          "positive where the constraints leave the masses "
-          "free.");
-      prm.declare_entry("Force", "0", Patterns::Anything(),
-                        "Force on each mass: n numbers.");
-      prm.declare_entry("Start", "", Patterns::Anything(),
-                        "Displacement from which the solve begins: n numbers; "
-                        "empty is all 0.");
+      parameter::declare(
+          prm, "Stiffness", "1", TextPattern("a matrix"),
+          parameter::basic("force/length", "2, -1; -1, 2"),
+          "Stiffness matrix K of the springs: n rows of n numbers, rows "
+          "separated by semicolons. Symmetric, and positive where the "
+          "constraints leave the masses free.");
+      parameter::declare(prm, "Force", "0", TextPattern::numbers(),
+                         parameter::basic("force", "-1, 0"),
+                         "Force on each mass: n numbers.");
+      parameter::declare(
+          prm, "Start", "", TextPattern::numbers(),
+          parameter::expert("length", "0.5, 0.5"),
+          "Displacement from which the solve starts: n numbers. Empty: 0.");
       prm.leave_subsection();
       prm.enter_subsection("Constraints");
-      prm.declare_entry("B", "", Patterns::Anything(),
-                        "Derivatives of the gaps by the displacements: a row "
-                        "of n numbers for each constraint, rows separated by "
-                        "';'. gap = initial gap + B u, and a positive gap is "
-                        "open.");
-      prm.declare_entry("Initial gap", "", Patterns::Anything(),
-                        "Gap of each constraint at displacement 0, length.");
-      prm.declare_entry("Kind", "inequality", Patterns::Anything(),
-                        "`inequality` (gap >= 0) or `equality` (gap = 0), one "
-                        "word for all constraints or one for each, separated "
-                        "by commas.");
+      parameter::declare(
+          prm, "B", "", TextPattern("a matrix"),
+          parameter::basic("1", "1, 0; 0, 1"),
+          "Derivatives of the gaps with respect to the displacements: a row of "
+          "n numbers for each constraint, rows separated by semicolons. gap = "
+          "initial gap + B u; a positive gap is open.");
+      parameter::declare(prm, "Initial gap", "", TextPattern::numbers(),
+                         parameter::basic("length", "0.1, 0.2"),
+                         "Gap of each constraint at displacement 0.");
+      parameter::declare(prm, "Kind", "inequality",
+                         TextPattern("a list of words"),
+                         parameter::advanced("", "equality, inequality"),
+                         "inequality (gap >= 0) or equality (gap = 0): one "
+                         "word for all constraints, or one for each.");
       prm.leave_subsection();
       MethodParameters::declare_parameters(prm);
       prm.enter_subsection("Method");
-      prm.declare_entry("Barrier parameter", "0", NumberPattern::from(0),
-                        "Product of contact force and gap in the units of the "
-                        "scene at which `barrier` stays instead of going to "
-                        "zero; 0 uses `Barrier start`, `factor` and `end`.");
+      parameter::declare(
+          prm, "Barrier parameter", "none",
+          OrWord(NumberPattern::from(0), "none"),
+          parameter::expert("force*length", "0.01"),
+          "Fixed product of contact force and gap for `barrier`, for study "
+          "only. none: the barrier goes to zero by `Barrier start`, `Barrier "
+          "factor` and `Barrier end`.");
       prm.leave_subsection();
       prm.enter_subsection("Sweep");
-      prm.declare_entry("Penalties", "", Patterns::Anything(),
-                        "Penalties, as multiples of the stiffness that a "
-                        "constraint sees, for which the scene is solved by "
-                        "`penalty` as well; their solutions go to `sweep.csv` "
-                        "and into the pictures.");
+      parameter::declare(
+          prm, "Penalty factors", "", TextPattern::numbers(),
+          parameter::advanced("stiffness of the constraint", "1, 10, 100"),
+          "Penalty factors for which the scene is also solved by `penalty`. "
+          "The solutions go to sweep.csv and into the pictures.");
       prm.leave_subsection();
     }
 
@@ -205,8 +216,9 @@ namespace abut::app
       model.equality = parse_kinds(prm.get("Kind"), model.rows.size());
       prm.leave_subsection();
       if (model.length_scale() == 0)
-        throw InputError("Masses/Force", "nothing loads the masses: all forces "
-                                         "and initial gaps are 0.");
+        throw InputError(
+            "Masses/Force",
+            "there is no load: all forces and initial gaps are 0.");
     }
 
     void PointMass::parse(ParameterHandler &prm)
@@ -215,17 +227,20 @@ namespace abut::app
       method.parse_parameters(prm);
       require_law_without_stress(method);
       prm.enter_subsection("Method");
-      const double barrier = prm.get_double("Barrier parameter");
+      const double barrier =
+          parameter::number_or_zero(prm, "Barrier parameter");
       prm.leave_subsection();
       if (barrier > 0)
         method.options.barrier_start = method.options.barrier_end =
             barrier / (model.length_scale() * model.pressure_scale());
       prm.enter_subsection("Sweep");
-      penalties = parse_numbers(prm.get("Penalties"), "Sweep/Penalties");
+      penalties =
+          parse_numbers(prm.get("Penalty factors"), "Sweep/Penalty factors");
       prm.leave_subsection();
       for (const double penalty : penalties)
         if (!(penalty > 0))
-          throw InputError("Sweep/Penalties", "a penalty must be above 0.");
+          throw InputError("Sweep/Penalty factors",
+                           "a penalty must be above 0.");
     }
 
     std::vector<EffectRule> PointMass::effects() const
@@ -243,8 +258,8 @@ namespace abut::app
             std::string("Method/Barrier ") + name, Weight::setting,
             [](const SceneValues &values)
             { return values.number("Method/Barrier parameter") == 0.; },
-            "Method/Barrier parameter takes its place."));
-      return joined({barrier, law_effects(),
+            "Method/Barrier parameter replaces it."));
+      return joined({barrier, law_effects(false),
                      no_discretisation("the constraints are given.")});
     }
 
@@ -254,6 +269,9 @@ namespace abut::app
       report.set("discretisation", "point mass");
       report.set("dofs", model.n());
       report.set("constraints", model.rows.size());
+      report.print("  " + counted(model.n(), "unknown", "unknowns") + ", "
+                   + counted(model.rows.size(), "constraint", "constraints")
+                   + "; " + law_in_words(method));
       report.model("search", false, "the constraints are given");
       report.model("friction", false, "not part of this scene");
       report.model("linear solver", true,

@@ -17,7 +17,7 @@ namespace abut::app
     {
       if (status == ABUT_SUCCESS)
         return;
-      const std::string text = abut_context_message(context);
+      const std::string text = shim::core_message(context);
       if (status > 0)
         throw InputError("Masses/Stiffness", text);
       throw std::runtime_error(text);

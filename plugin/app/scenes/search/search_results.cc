@@ -45,12 +45,11 @@ namespace abut::app
       report.set(name + "_area", s.area);
       report.set(name + "_facet_sizes",
                  std::vector<double>{s.smallest, s.median, s.largest});
-      report.progress(name + ": " + side.arrays.origin + ", "
-                      + std::to_string(side.arrays.n_nodes()) + " nodes, "
-                      + std::to_string(side.arrays.n_facets()) + " "
-                      + abut_facet_name(side.arrays.kind) + " facets of size "
-                      + short_text(s.smallest) + " to "
-                      + short_text(s.largest));
+      report.print("  " + name + ": " + side.arrays.origin + ", "
+                   + std::to_string(side.arrays.n_nodes()) + " nodes, "
+                   + std::to_string(side.arrays.n_facets()) + " "
+                   + abut_facet_name(side.arrays.kind) + " facets of size "
+                   + short_text(s.smallest) + " to " + short_text(s.largest));
     };
     sizes("secondary", secondary);
     if (&other != &secondary)
@@ -102,8 +101,8 @@ namespace abut::app
       report.warn(coded(
           ABUT_FAILURE_WRONG_SIDE,
           std::to_string(found.n_reversed)
-              + " nodes have facets within reach, but all face the same way "
-                "as the node: is one of the surfaces inside out?"));
+              + " nodes have facets within reach, but all face in the same "
+                "direction as the node. Is one of the surfaces inside out?"));
     if (found.n_overlaps > 0)
     {
       const auto dim = static_cast<std::size_t>(secondary.arrays.dimension);
@@ -124,8 +123,8 @@ namespace abut::app
           coded(ABUT_FAILURE_COARSE_SECONDARY,
                 "the facets of the secondary surface are "
                     + short_text(found.size_ratio)
-                    + " times as large as those of the primary surface, which "
-                      "may pass between its nodes: exchange the two."));
+                    + " times as large as those of the primary surface, whose "
+                      "nodes may pass between its nodes: exchange the two."));
   }
 
   void SearchRun::report_statistics()
@@ -153,13 +152,13 @@ namespace abut::app
     if (per_pair > wasteful_tests
         && parameters.search.detection.search.algorithm
                != ABUT_SEARCH_ALL_PAIRS)
-      report.warn(coded(
-          ABUT_FAILURE_BUCKETS,
-          short_text(per_pair)
-              + " facets were looked at for each pair found: the buckets are "
-                "far from the size of the facets. Set Search/Bucket size = 0, "
-                "or Search/Algorithm = adaptive buckets where sizes differ "
-                "much."));
+      report.warn(
+          coded(ABUT_FAILURE_BUCKETS,
+                short_text(per_pair)
+                    + " facets were tested for each pair found: the bucket "
+                      "size is far from the size of the facets. Set "
+                      "Search/Bucket size = auto, or Search/Algorithm = "
+                      "adaptive buckets if sizes differ much."));
     if (s.bucket_raised != 0)
       report.warn(
           coded(ABUT_FAILURE_BUCKETS,
@@ -173,7 +172,7 @@ namespace abut::app
     const abut_search_options &lists = p.detection.search;
     report.model(abut_search_name(lists.algorithm), true,
                  lists.bucket_size > 0 || lists.capacity > 0
-                     ? "buckets as the scene asks"
+                     ? "buckets as set in the scene"
                      : "buckets chosen from the data");
     report.model("self contact", p.detection.self_contact,
                  p.detection.self_contact
@@ -182,7 +181,7 @@ namespace abut::app
     report.model("thickness of bodies",
                  p.other_thickness || !p.thickness.empty(), "Search/Thickness");
     report.model("skin", lists.skin > 0,
-                 lists.skin > 0 ? "lists serve again after small motion"
+                 lists.skin > 0 ? "lists are reused after small motion"
                                 : "nothing moves");
     report.model("bucket-size sweep", !parameters.sweep.bucket_sizes.empty(),
                  "Sweep/Bucket sizes");

@@ -86,10 +86,7 @@ namespace abut::app
         abut_surface_create(context.get(), &data, &surface);
     if (status > 0)
     {
-      std::string fault = abut_context_message(context.get());
-      const std::string call = "abut_surface_create: ";
-      if (fault.compare(0, call.size(), call) == 0)
-        fault = fault.substr(call.size());
+      std::string fault = shim::core_message(context.get());
       throw InputError(arrays.parameter,
                        "the surface '" + name + "' (" + arrays.origin
                            + ") cannot be used: " + fault

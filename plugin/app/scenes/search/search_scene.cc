@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "search_scene.h"
 
+#include <abut/dealii/parameter_entry.h>
+
 #include "app/input/input_error.h"
 #include "app/scenes/method_effects.h"
 #include "search_run.h"
@@ -21,7 +23,7 @@ namespace abut::app
                          "with Search/Self contact the secondary surface "
                          "touches itself."),
             effective_if("Sweep/Repeats", Weight::setting, has_sweep, no_sweep),
-            effective_if("Sweep/Most tests", Weight::setting, has_sweep,
+            effective_if("Sweep/Maximum tests", Weight::setting, has_sweep,
                          no_sweep),
             capacity_effect()},
            mesh_effects("Secondary"),
@@ -73,11 +75,11 @@ namespace abut::app
     SearchParameters::declare_parameters(prm);
     SweepParameters::declare(prm);
     prm.enter_subsection("Output");
-    prm.declare_entry("Fields", "true", dealii::Patterns::Bool(),
-                      "Write both surfaces as VTU files for ParaView, the "
-                      "secondary one with gap, distance, status (0 not "
-                      "paired, 1 paired, 2 overlapping) and number of the "
-                      "facet.");
+    parameter::declare(
+        prm, "Fields", "true", dealii::Patterns::Bool(), parameter::basic(),
+        "Whether both surfaces are written as VTU files for ParaView, the "
+        "secondary one with gap, distance, status (0 not paired, 1 paired, 2 "
+        "overlapping) and number of the facet.");
     prm.leave_subsection();
   }
 

@@ -7,6 +7,8 @@
 #include "shim/handles.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <algorithm>
 #include <cmath>
@@ -166,17 +168,19 @@ namespace abut::app
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Sweep");
-    prm.declare_entry("Bucket sizes", "0.5, 1, 2, 4, 8, 16, 32", Anything(),
-                      "Bucket sizes, as multiples of the median facet size, "
-                      "for which the time of the search is measured with each "
-                      "algorithm, beside the automatic choice. Empty: no "
-                      "sweep.");
-    prm.declare_entry("Repeats", "5", Integer(1),
-                      "Measurements, in processor time, of which the fastest "
-                      "counts; fewer where they take longer than a second.");
-    prm.declare_entry("Most tests", "3e8", NumberPattern::from(0),
-                      "All pairs take part in the sweep as long as nodes "
-                      "times facets are not more.");
+    parameter::declare(
+        prm, "Bucket sizes", "0.5, 1, 2, 4, 8, 16, 32", TextPattern::numbers(),
+        parameter::advanced("median facet size", "0.5, 1, 2"),
+        "Bucket sizes for which the time of the search is measured, with each "
+        "algorithm and in addition to the automatic choice. Empty: no sweep.");
+    parameter::declare(prm, "Repeats", "5", Integer(1),
+                       parameter::advanced("1", "10"),
+                       "Measurements of processor time, of which the fastest "
+                       "counts. Fewer if they take longer than a second.");
+    parameter::declare(prm, "Maximum tests", "3e8", NumberPattern::from(0),
+                       parameter::expert("1", "1e7"),
+                       "Product of nodes and facets up to which `all pairs` "
+                       "takes part in the sweep.");
     prm.leave_subsection();
   }
 
@@ -185,13 +189,13 @@ namespace abut::app
     prm.enter_subsection("Sweep");
     bucket_sizes = parse_numbers(prm.get("Bucket sizes"), "Sweep/Bucket sizes");
     repeats = static_cast<unsigned int>(prm.get_integer("Repeats"));
-    most_tests = prm.get_double("Most tests");
+    most_tests = prm.get_double("Maximum tests");
     prm.leave_subsection();
     for (const double size : bucket_sizes)
       if (!(size > 0))
         throw InputError("Sweep/Bucket sizes",
                          "bucket sizes must be positive; the automatic choice "
-                         "takes part anyway.");
+                         "is always included.");
     std::sort(bucket_sizes.begin(), bucket_sizes.end());
   }
 

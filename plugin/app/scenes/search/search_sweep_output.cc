@@ -55,8 +55,8 @@ namespace abut::app
 
   void print_sweep_head(Report &report)
   {
-    report.progress("search by algorithm        bucket size   in use   ns per "
-                    "node  bytes per facet");
+    report.detail("search by algorithm        bucket size   in use   ns per "
+                  "node  bytes per facet");
   }
 
   void print_sweep_point(Report &report, const SweepPoint &point,
@@ -78,6 +78,6 @@ namespace abut::app
                              / std::max(heading.n_facets, 1.),
                          3)
          << (raised ? "  raised to the search radius" : "");
-    report.progress(line.str());
+    report.detail(line.str());
   }
 } // namespace abut::app

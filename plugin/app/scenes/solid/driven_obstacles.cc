@@ -44,8 +44,8 @@ namespace abut::app
     void check_time(const abut_status status)
     {
       if (status != ABUT_SUCCESS)
-        throw std::runtime_error("The motion of an obstacle has become "
-                                 "infinite or is no number any more.");
+        throw std::runtime_error(
+            "The motion of an obstacle is not finite any more.");
     }
 
     /** Formulas of t alone, with finite values. */
@@ -65,8 +65,8 @@ namespace abut::app
         if (values[0] != values[1])
           throw InputError(formula.parameter(),
                            "'" + formula.text()
-                               + "' depends on the place; what moves a rigid "
-                                 "obstacle is a formula in t only.");
+                               + "' depends on x, y or z; forces and motions "
+                                 "of a rigid obstacle are formulas in t only.");
         result[d] = values[0];
       }
       return result;
@@ -122,7 +122,7 @@ namespace abut::app
     for (const unsigned int d : given.free)
       if (!motion.is_zero(d))
         throw InputError(given.parameter("Motion"),
-                         std::string("forces move the obstacle along ")
+                         std::string("the obstacle is driven by forces along ")
                              + "xyz"[d] + " ("
                              + given.parameter("Free directions")
                              + "): its motion there must be 0.");
@@ -170,8 +170,8 @@ namespace abut::app
                 && parameters.plane == PlaneModel::axisymmetric))
           throw InputError(given.parameter("Free directions"),
                            d >= dim ? "a scene in 2 dimensions has no z."
-                                    : "around an axis an obstacle can only "
-                                      "move along it: y.");
+                                    : "an axisymmetric obstacle can only move "
+                                      "along the axis: y.");
       if (!text.empty())
         formulas.back() = std::make_unique<Expression<dim>>(
             text, given.parameter("Force"), dim);
@@ -179,11 +179,11 @@ namespace abut::app
       check_velocity(o);
       has_mass = has_mass || given.mass > 0.;
       if (in_time && given.mass == 0. && parameters.time.scheme.projects != 0)
-        throw InputError(given.parameter("Mass"),
-                         std::string(parameters.time.scheme.name)
-                             + " moves what would penetrate by its mass: give "
-                               "the obstacle a mass, or use Time/Scheme = "
-                               "hht.");
+        throw InputError(
+            given.parameter("Mass"),
+            std::string(parameters.time.scheme.name)
+                + " needs mass to remove penetration: give the obstacle a "
+                  "mass, or use Time stepping/Scheme = hht.");
     }
     gravity.reset();
     if (has_mass && !parameters.gravity.empty())
@@ -560,19 +560,18 @@ namespace abut::app
       return "The forces on "
              + parameters.obstacles[coordinates.front().obstacle].section + ", "
              + short_number(largest_force, 3)
-             + " at the most, deform bodies by some " + short_number(depth, 2)
-             + ", and places of bodies as large as " + short_number(size, 2)
-             + " have too few digits for that to be in balance. Look at the "
-               "units of forces, lengths and stiffness.";
+             + " at most, deform bodies by about " + short_number(depth, 2)
+             + ", and positions as large as " + short_number(size, 2)
+             + " make this smaller than round-off. Check the units of forces, "
+               "lengths and stiffness.";
     if (answer == ForceBalance::Answer::loose)
     {
       const Coordinate &c = coordinates[balance.loose()];
       return coded(
           ABUT_FAILURE_FLOATING_BODY,
           "Nothing holds " + name(balance.loose())
-              + ": it has a force there, no mass that would resist it, and "
-                "contact does not. Turn the force towards a body, bring the "
-                "obstacle nearer, or take "
+              + ": neither mass nor contact resists its force there. Direct "
+                "the force towards a body, move the obstacle nearer, or use "
               + std::string(1, "xyz"[c.direction]) + " out of "
               + parameters.obstacles[c.obstacle].parameter("Free directions")
               + ".");
@@ -580,12 +579,11 @@ namespace abut::app
     if (is_out)
       return "Forces drive "
              + parameters.obstacles[coordinates.front().obstacle].section
-             + " out of all bounds: look for forces that are no match for the "
-               "stiffness of the bodies or the mass of the obstacle.";
-    return "No place was found for "
+             + " beyond all bounds: check for forces that are too large for "
+               "the stiffness of the bodies or the mass of the obstacle.";
+    return "No equilibrium was found for "
            + parameters.obstacles[coordinates.front().obstacle].section
-           + " where the forces on it are in balance: after "
-           + std::to_string(balance.n_places()) + " places "
+           + ": after " + std::to_string(balance.n_places()) + " places "
            + short_number(balance.error(), 3)
            + " of them is left. Use smaller steps.";
   }

@@ -71,9 +71,9 @@ namespace abut::app
      * it. */
     bool points_may_move(const SceneValues &values)
     {
-      const std::string sliding = values("Method/Sliding");
-      return sliding == "large"
-             || (sliding != "step" && has_large_strain(values));
+      const std::string sliding = values("Method/Contact geometry");
+      return sliding == "current"
+             || (sliding != "start of step" && has_large_strain(values));
     }
 
     bool has_two_bodies_in_contact(const SceneValues &values)
@@ -118,12 +118,13 @@ namespace abut::app
                   "Body */Density",
                   [](const SceneValues &values)
                   { return has_gravity(values) || has_motion(values); },
-                  "Solid/Gravity is empty, and nothing moves."),
+                  "Solid/Gravity is empty, and Time stepping/Scheme is "
+                  "quasi-static."),
               data(
                   "Solid/Plane",
                   [](const SceneValues &values)
                   { return values("Dimension") == "2"; },
-                  "it is about scenes in 2 dimensions.")};
+                  "it belongs to scenes in 2 dimensions.")};
     }
 
     EffectRules of_contact()
@@ -134,8 +135,8 @@ namespace abut::app
       const auto is_tied =
           [](const SceneValues &values, const std::string &section)
       { return values.is_true(section + "/Tied"); };
-      const std::string tied = "the pair is tied: it is glued together as the "
-                               "meshes lie.";
+      const std::string tied =
+          "the pair is tied at the positions of the meshes.";
       const auto without_formulas =
           [](const SceneValues &values, const std::string &section)
       {
@@ -152,11 +153,11 @@ namespace abut::app
               of_pairs("Closed form of pressure", in_space, plane),
               of_pairs("Closed form of friction", in_space, plane),
               of_pairs("Initial gap", is_tied, tied),
-              of_pairs("Mesh gap", is_tied, tied),
+              of_pairs("Use mesh gap", is_tied, tied),
               of_pairs("Friction", is_tied, tied),
               of_pairs("Largest friction", without_friction,
-                       "the pair has no friction: give Friction a "
-                       "coefficient, which may be large.")};
+                       "the pair has no friction: set Friction, perhaps to a "
+                       "large coefficient.")};
     }
 
     EffectRules of_obstacles()
@@ -170,11 +171,10 @@ namespace abut::app
           [](const SceneValues &values, const std::string &path)
       {
         const std::string free = section_of(path) + "/Free directions";
-        return values(free).empty()
-                   ? free
-                         + " is empty: the obstacle is where its Motion says, "
-                           "whatever acts on it."
-                   : "";
+        return values(free).empty() ? free
+                                          + " is empty: the obstacle follows "
+                                            "its Motion, independent of forces."
+                                    : "";
       };
       return {
           {"Obstacle */Force", Weight::data, is_driven},
@@ -184,21 +184,23 @@ namespace abut::app
              const std::string why = is_driven(values, path);
              return !why.empty() || has_motion(values) || has_gravity(values)
                         ? why
-                        : "nothing moves in time, and Solid/Gravity is empty.";
+                        : "Time stepping/Scheme is quasi-static, and "
+                          "Solid/Gravity is empty.";
            }},
           {"Obstacle */Initial velocity", Weight::data,
            [is_driven](const SceneValues &values, const std::string &path)
            {
              if (!has_motion(values))
-               return std::string("nothing moves: Time/Scheme is none. hht is "
-                                  "the one to begin with.");
+               return std::string(
+                   "it belongs to dynamics, and Time stepping/Scheme is "
+                   "quasi-static. hht is a good first choice.");
              const std::string why = is_driven(values, path),
                                mass = section_of(path) + "/Mass";
              return !why.empty() || values.number(mass) > 0.
                         ? why
                         : mass
-                              + " is 0: without inertia the obstacle is where "
-                                "forces are in equilibrium.";
+                              + " is 0: without mass the obstacle is in "
+                                "equilibrium at all times.";
            }},
           {"Obstacle */Gradient", Weight::data,
            [](const SceneValues &values, const std::string &path)
@@ -208,7 +210,7 @@ namespace abut::app
                             && values(section + "/Gap along") == "axis"
                             && !points_may_move(values)
                         ? "gap and force are along the axis (" + section
-                              + "/Gap along), whatever the slope."
+                              + "/Gap along), independent of the slope."
                         : "";
            }},
           {"Obstacle */Rotation centre", Weight::data, turns},
@@ -216,7 +218,7 @@ namespace abut::app
            [turns](const SceneValues &values, const std::string &path)
            {
              return values("Dimension") == "2"
-                        ? "in 2 dimensions obstacles turn in the plane."
+                        ? "in 2 dimensions obstacles rotate in the plane."
                         : turns(values, path);
            }},
       };
@@ -224,14 +226,13 @@ namespace abut::app
 
     EffectRules of_search()
     {
-      const auto never = [](const SceneValues &) { return false; };
       EffectRules rules = {
-          data("Search/Extension", never,
-               "pairs of bodies touch where they are opposite to each other. "
-               "Scenes of kind 'search' have it."),
-          data("Search/Self contact", never,
-               "a pair whose Primary is the same as its Secondary may touch "
-               "itself. Scenes of kind 'search' have it."),
+          never_effective("Search/Extension", Weight::data,
+                          "it belongs to scenes of kind 'search'."),
+          never_effective(
+              "Search/Self contact", Weight::data,
+              "it belongs to scenes of kind 'search'. Self contact of bodies: "
+              "the same surface as Primary and Secondary."),
           data(
               "Refinement/Relaxation sweeps",
               [](const SceneValues &values)
@@ -239,8 +240,8 @@ namespace abut::app
                 return law_may_be(values, [](const abut_law &law)
                                   { return abut_law_needs_open_start(&law); });
               },
-              "starts are improved in scenes of kind 'obstacle' only, and by "
-              "the method barrier."),
+              "it belongs to scenes of kind 'obstacle' and to "
+              "Method/Enforcement = barrier."),
           data(
               "Method/Multiplier degree",
               [](const SceneValues &values)
@@ -257,8 +258,8 @@ namespace abut::app
                                "Search/Skin", "Method/Segments"})
         rules.push_back(setting(name, has_two_bodies_in_contact, no_partner));
       rules.push_back(
-          setting("Method/Turning terms", points_may_move,
-                  "it belongs to points that move: Method/Sliding = large."));
+          setting("Method/Geometric contact tangent", points_may_move,
+                  "it belongs to Method/Contact geometry = current."));
       rules.push_back(capacity_effect());
       const std::string no_contact = "there is no contact: Solid/Pairs is 0.";
       rules.push_back(
@@ -293,30 +294,25 @@ namespace abut::app
     EffectRules of_load_steps()
     {
       return {setting(
-                  "Load steps/Smallest step",
+                  "Time stepping/Smallest step",
                   [](const SceneValues &values)
-                  { return values.is_true("Load steps/Cut back"); },
-                  "it belongs to Load steps/Cut back = true."),
-              setting("Load steps/Newton*", has_nonlinear_material,
-                      "the materials of all bodies have forces that are linear "
-                      "in the displacement."),
+                  { return values.is_true("Time stepping/Cut back"); },
+                  "it belongs to Time stepping/Cut back = true."),
+              setting("Time stepping/*Newton*", has_nonlinear_material,
+                      "the materials of all bodies are linear."),
               setting(
-                  "Solid/Allow large strain",
+                  "Solid/Accept strains beyond linear theory",
                   [](const SceneValues &values)
                   { return !has_large_strain(values); },
-                  "Body 1/Material is for strains of any size.")};
+                  "Body 1/Material is at finite strain.")};
     }
 
     EffectRules of_motion()
     {
       const auto in_steps = [](const SceneValues &values)
       { return !has_motion(values); };
-      EffectRules rules;
-      for (const char *name : {"Load steps/Steps", "Load steps/End time"})
-        rules.push_back(
-            data(name, in_steps,
-                 "a motion has the steps of Time/Step to Time/End."));
-      return rules;
+      return {data("Time stepping/Number of steps", in_steps,
+                   "dynamics has steps of Time stepping/Step size.")};
     }
   } // namespace
 

@@ -24,14 +24,15 @@ namespace abut::app
       if (!text.empty())
         made = std::make_unique<Expression<dim>>(text, parameter, dim);
       if (made && made->depends_on_time())
-        throw InputError(parameter, "'" + text
-                                        + "' depends on t; it is about time "
-                                          "0.");
+        throw InputError(parameter,
+                         "'" + text
+                             + "' depends on t; it is the state at time 0.");
       return made;
     };
     for (const BodyParameters &body : parameters.bodies)
       of_body.push_back(
-          {BoundaryExpressions<dim>(body.support, body.parameter("Support"),
+          {BoundaryExpressions<dim>(body.support,
+                                    body.parameter("Prescribed displacement"),
                                     dim, true),
            BoundaryExpressions<dim>(body.traction, body.parameter("Traction"),
                                     dim),
@@ -110,11 +111,11 @@ namespace abut::app
         for (unsigned int c = 0; load.n_components == dim && c < dim; ++c)
           moves[c] = !load.is_zero(c);
         if (is_held(id, moves))
-          throw InputError(parameters.bodies[body].parameter(name),
-                           "the load on boundary " + std::to_string(id)
-                               + " has no effect: "
-                               + parameters.bodies[body].parameter("Support")
-                               + " holds it there.");
+          throw InputError(
+              parameters.bodies[body].parameter(name),
+              "the load on boundary " + std::to_string(id) + " has no effect: "
+                  + parameters.bodies[body].parameter("Prescribed displacement")
+                  + " fixes it there.");
       }
     };
     require(of_body[body].traction, data.tractions, "Traction");

@@ -46,12 +46,11 @@ namespace abut::app
     if (seen.least_at_corners <= 0.)
       findings.emplace_back(
           coded(ABUT_FAILURE_LARGE_STRAIN,
-                "A cell is turned inside out at a corner, to "
+                "A cell is inverted at a corner, to "
                     + short_number(seen.least_at_corners, 3)
-                    + " of its volume there, which the points of quadrature "
-                      "do not see: the bodies may be folded into an "
-                      "equilibrium that no path leads to. Use smaller load "
-                      "steps, or refine the mesh there."),
+                    + " of its volume there; quadrature points do not detect "
+                      "it, and the equilibrium may be unreachable. Use smaller "
+                      "load steps, or refine the mesh there."),
           false);
     if (seen.excess <= 0.)
       return findings;
@@ -67,7 +66,7 @@ namespace abut::app
                   + material.below_least_stretch + ". Set "
                   + bodies[seen.where].parameter("Material") + " = "
                   + material.instead
-                  + ", or look at the units of loads and stiffness."),
+                  + ", or check the units of loads and stiffness."),
         true);
     return findings;
   }

@@ -9,6 +9,7 @@
 #include "app/pictures/contact_output.h"
 #include "app/pictures/outline.h"
 #include "app/restart/archive.h"
+#include "app/scenes/method_words.h"
 #include "shim/bodies.h"
 #include "solid_report.h"
 
@@ -73,11 +74,10 @@ namespace abut::app
     const abut_time_scheme &scheme = parameters.time.scheme;
     if (motion && scheme.projects != 0 && scheme.contact_in_step != 0
         && pairs->has_friction())
-      throw InputError("Time/Scheme",
+      throw InputError("Time stepping/Scheme",
                        std::string(scheme.name)
-                           + " has two contact problems in a step, and a slip "
-                             "that belongs to none of them: use hht for "
-                             "friction.");
+                           + " has two contact problems in a step and no slip "
+                             "of the step: use hht for friction.");
     if (!parameters.exact_displacement.empty())
       exact = std::make_unique<ExactSolution<dim>>(
           parameters.exact_displacement, "Exact solution/Displacement",
@@ -184,12 +184,12 @@ namespace abut::app
       if (std::none_of(ids.begin(), ids.end(),
                        [&](const boundary_id id)
                        { return touched.count(id) > 0; }))
-        throw InputError(bodies[parts[k].body].parameter("Support"),
-                         coded(ABUT_FAILURE_FLOATING_BODY,
-                               parts[k].name()
-                                   + " is held too little: its supports allow "
-                                   + freedom[k].description
-                                   + ", and it is in no contact pair."));
+        throw InputError(
+            bodies[parts[k].body].parameter("Prescribed displacement"),
+            coded(ABUT_FAILURE_FLOATING_BODY,
+                  parts[k].name() + " has too few supports: they allow "
+                      + freedom[k].description
+                      + ", and it is in no contact pair."));
       pairs->hold(ids, parts[k].n_parts > 1);
     }
     check_points(points, elasticity);
@@ -207,7 +207,7 @@ namespace abut::app
             << "), and refinement keeps them straight: " << effect
             << ". Name the circle, cylinder or sphere in "
             << bodies[bodies.body_of(bend.id)].mesh.section
-            << "/Curved sides; 'flat' there says that it is a corner.";
+            << "/Curved sides; 'flat' there marks a corner.";
     return message.str();
   }
 
@@ -229,7 +229,7 @@ namespace abut::app
     chords.reset();
     run.report.warn(
         coded(ABUT_FAILURE_COARSE_CURVE,
-              "A round side may be taken for a polygon: "
+              "A round side may be a polygon: "
                   + text_of_bend(bend, "finer meshes will converge to the "
                                        "contact of a polygon")));
   }
@@ -328,9 +328,9 @@ namespace abut::app
   template <int dim>
   std::string SolidModel<dim>::support_of(const Message &message) const
   {
-    return message.body < 0
-               ? ""
-               : bodies[parts.at(message.body).body].parameter("Support");
+    return message.body < 0 ? ""
+                            : bodies[parts.at(message.body).body].parameter(
+                                "Prescribed displacement");
   }
 
   template <int dim> void SolidModel<dim>::look_at_rows(const bool is_last)
@@ -367,8 +367,8 @@ namespace abut::app
     if (motion && has_large_strain()
         && !std::isfinite(elasticity.stored_energy(run.u)))
       return coded(ABUT_FAILURE_NOT_FINITE,
-                   "At the end of this time step a cell is turned inside out. "
-                   "Make Time/Step shorter.");
+                   "At the end of this time step a cell is inverted. Use a "
+                   "smaller Time stepping/Step size.");
     // A step that cannot be shortened is told of at the end.
     if (motion && parameters.load_steps.cut_back)
       return leaves_points();
@@ -383,10 +383,24 @@ namespace abut::app
             ABUT_FAILURE_FLOATING_BODY,
             "Nothing holds " + parts[k].name() + ": its supports allow "
                 + freedom[k].description
-                + ", and it touches nothing. Press it against something, or "
+                + ", and it has no contact. Press it against another body, or "
                   "give it a support ("
-                + bodies[parts[k].body].parameter("Support") + ").");
+                + bodies[parts[k].body].parameter("Prescribed displacement")
+                + ").");
     return "";
+  }
+
+  template <int dim>
+  std::vector<std::string> SolidModel<dim>::rigid_motions() const
+  {
+    std::vector<std::string> lines;
+    for (unsigned int k = 0; k < parts.size(); ++k)
+      lines.push_back(parts[k].name() + ": "
+                      + (freedom[k].n_modes == 0
+                             ? "its supports leave no rigid motion"
+                             : "its supports leave " + freedom[k].description
+                                   + ", which contact must support"));
+    return lines;
   }
 
   template <int dim> bool SolidModel<dim>::tells_friction_apart() const
@@ -597,10 +611,46 @@ namespace abut::app
   template <int dim>
   std::string SolidModel<dim>::line_of(const ContactResult &result) const
   {
-    return "time " + short_number(result.time, 6) + ", level "
-           + std::to_string(result.level) + ": " + std::to_string(result.dofs)
-           + " unknowns, " + std::to_string(result.linear.n_iterations)
-           + " linear iterations, energy " + short_number(result.energy, 8);
+    const bool has_steps = parameters.load_steps.steps > 1;
+    return (has_steps ? "time " + short_number(result.time, 6) + ", " : "")
+           + "mesh " + std::to_string(result.level) + ": "
+           + std::to_string(result.dofs) + " unknowns, "
+           + (has_contact()
+                  ? std::to_string(result.active) + " points in contact, "
+                  : "")
+           + (result.linear.n_iterations > 0
+                  ? std::to_string(result.linear.n_iterations)
+                        + " linear iterations, "
+                  : "")
+           + "energy " + short_number(result.energy, 8);
+  }
+
+  template <int dim> std::string SolidModel<dim>::description() const
+  {
+    std::string text = counted(bodies.size(), "body", "bodies");
+    if (!parameters.obstacles.empty())
+      text += ", "
+              + counted(parameters.obstacles.size(), "rigid obstacle",
+                        "rigid obstacles");
+    if (has_contact())
+    {
+      text += ", "
+              + counted(pairs->pairs().size(), "contact pair", "contact pairs")
+              + "; " + law_in_words(run.method) + ", "
+              + (run.method.discretisation
+                     ? discretisation_name(run.method.discretisation)
+                     : "automatic discretisation");
+      if (pairs->has_friction())
+        text += ", friction";
+      if (has_large_strain() || motion)
+        text += ", kinematics "
+                + std::string(kinematics_info(run.method.kinematics).name);
+    }
+    if (has_large_strain())
+      text += ", large strain";
+    if (motion)
+      text += std::string(", in time by ") + parameters.time.scheme.name;
+    return text;
   }
 
   template <int dim> void SolidModel<dim>::report_check()

@@ -114,6 +114,7 @@ namespace abut::app
     }
     void add_to_row(ContactResult &result,
                     std::map<std::string, double> &row) const override;
+    std::string description() const override;
     std::string line_of(const ContactResult &result) const override;
     void flag_more_cells() override;
 
@@ -140,6 +141,10 @@ namespace abut::app
 
     /** Of the present solution. */
     ContactFields contact_fields() const;
+
+    /** What rigid motions the supports leave to each part of a body: a line
+     * each. */
+    std::vector<std::string> rigid_motions() const;
 
     /** Whether forces of pressures and of friction are known by themselves: of
      * laws whose forces are stresses no force is that of a pressure alone. */

@@ -64,16 +64,14 @@ namespace abut::app
       // The normals of the two sides of an obstacle, or of one that has gone
       // by.
       if (pair.rotation > M_PI / 2. && pairs->obstacle_of(p))
-        return coded(
-            ABUT_FAILURE_NO_PARTNER,
-            parameters.pairs[p].section
-                + ": in this time step its obstacle goes past the middle of "
-                  "the body, or the body past the middle of the obstacle, and "
-                  "contact would be with the far side. It must not move by "
-                  "more than "
-                  "half of what the thinner of the two is thick: make "
-                  "Time/Step shorter, or let it move more slowly (its Motion, "
-                  "its velocity, the forces on it).");
+        return coded(ABUT_FAILURE_NO_PARTNER,
+                     parameters.pairs[p].section
+                         + ": in this time step the obstacle passes the middle "
+                           "of the body, or the body that of the obstacle, and "
+                           "contact would be with the far side. Within a step "
+                           "the motion must be below half of the smaller "
+                           "thickness. Use a smaller Time stepping/Step size, "
+                           "or a slower obstacle (Motion, velocity, forces).");
       const bool slides =
           pair.facet > 0. && pair.slip > largest_slip * pair.facet;
       if (!slides && pair.rotation <= largest_rotation)
@@ -85,11 +83,11 @@ namespace abut::app
                      ? ": in this time step the surfaces in contact slide on "
                        "each other by "
                            + short_number(pair.slip / pair.facet, 3) + " facets"
-                     : ": in this time step the normals in contact turn by "
+                     : ": in this time step the contact normals rotate by "
                            + short_number(pair.rotation * 180. / M_PI, 3)
                            + " degrees")
-              + ", but contact is that of its beginning. Make Time/Step "
-                "shorter.");
+              + ", but contact is evaluated at its start. Use a smaller Time "
+                "stepping/Step size.");
     }
     return "";
   }

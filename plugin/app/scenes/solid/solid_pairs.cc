@@ -41,11 +41,11 @@ namespace abut::app
               && !moves<dim>(obstacle, "Rotation angle", 1)
               && !moves<dim>(obstacle, "Expression", 1)))
         return;
-      throw InputError(pair.parameter("Mesh gap"),
-                       "false leaves out where " + obstacle.section
-                           + " is, and so that it moves: press with Initial "
-                             "gap = -0.01*t or by what supports the body, or "
-                             "let the gap count.");
+      throw InputError(
+          pair.parameter("Use mesh gap"),
+          "false leaves out where " + obstacle.section
+              + " is, also when it moves. Press with Initial gap = -0.01*t or "
+                "by a prescribed displacement, or set Use mesh gap = true.");
     }
   } // namespace
 
@@ -120,12 +120,12 @@ namespace abut::app
         continue; // a surface that touches itself
       for (const boundary_id id : all[i].secondary)
         if (all[i].primary.count(id) > 0)
-          throw InputError(given.parameter("Primary"),
-                           coded(ABUT_FAILURE_BOTH_SIDES,
-                                 bodies.name(id)
-                                     + " is on both sides of the pair. Where a "
-                                       "surface touches itself both sides are "
-                                       "the same altogether."));
+          throw InputError(
+              given.parameter("Primary"),
+              coded(ABUT_FAILURE_BOTH_SIDES,
+                    bodies.name(id)
+                        + " is on both sides of the pair. For self contact "
+                          "both sides must be the same."));
     }
   }
 
@@ -149,7 +149,7 @@ namespace abut::app
       throw InputError(
           parameters.pairs[i].parameter("Secondary"),
           "all nodes of the surface are prescribed by "
-              + bodies[body].parameter("Support")
+              + bodies[body].parameter("Prescribed displacement")
               + ", so that contact cannot move them. Exchange the two sides, "
                 "or leave the surface free.");
     }
@@ -230,10 +230,10 @@ namespace abut::app
         elsewhere[d] = 0.7310585 + d;
       const auto values = gaps[i]->evaluate({dealii::Point<dim>(), elsewhere});
       if (values[0] != values[1])
-        throw InputError(parameters.pairs[i].parameter("Initial gap"),
-                         "'" + gaps[i]->text()
-                             + "' depends on the place; it may depend on t "
-                               "alone.");
+        throw InputError(
+            parameters.pairs[i].parameter("Initial gap"),
+            "'" + gaps[i]->text()
+                + "' depends on x, y or z; it may depend on t only.");
       all[i].gap = values[0];
     }
   }
@@ -295,15 +295,13 @@ namespace abut::app
       throw InputError(
           parameters.obstacles[o].parameter(turns ? "Rotation angle"
                                                   : "Motion"),
-          "the place of the obstacle jumps at t = " + short_number(high, 6)
+          "the position of the obstacle jumps at t = " + short_number(high, 6)
               + (turns ? ""
                        : " by "
                              + short_number(
                                  (last.translation - first.translation).norm(),
                                  3))
-              + ": an obstacle that is elsewhere at once has an infinite "
-                "velocity, and contact cannot stop it. Write a formula that is "
-                "continuous in t.");
+              + ". Use a formula that is continuous in t.");
     }
   }
 
@@ -374,7 +372,7 @@ namespace abut::app
     case PairField::friction:
       return pair.parameter("Friction");
     case PairField::kinematics:
-      return "Method/Sliding";
+      return "Method/Contact geometry";
     default:
       return pair.parameter("Secondary");
     }

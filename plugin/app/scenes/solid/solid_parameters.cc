@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_parameters.h"
 
-#include "app/input/formula_pattern.h"
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
 
 #include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -65,72 +66,87 @@ namespace abut::app
     void declare_solid(ParameterHandler &prm)
     {
       prm.enter_subsection("Solid");
-      prm.declare_entry("Bodies", "1", Patterns::Integer(1, most),
-                        "Number of bodies: there are as many sections `Body "
-                        "1`, `Body 2`, ...");
-      prm.declare_entry("Pairs", "0", Patterns::Integer(0, most),
-                        "Number of contact pairs, sections `Pair 1`, ...");
-      prm.declare_entry("Obstacles", "0", Patterns::Integer(0, most),
-                        "Number of rigid obstacles, sections `Obstacle 1`, "
-                        "...");
-      prm.declare_entry("Degree", "auto", Patterns::Selection("auto|1|2"),
-                        "Polynomial degree of the displacement. auto: 1 for "
-                        "quadrilaterals and hexahedra, 2 for triangles and "
-                        "tetrahedra, which are too stiff with 1, each for its "
-                        "own cells where a scene has both.");
+      parameter::declare(
+          prm, "Bodies", "1", Patterns::Integer(1, most),
+          parameter::basic("1", "2"),
+          "Number of bodies, described by sections `Body 1`, `Body 2`, ...");
+      parameter::declare(
+          prm, "Pairs", "0", Patterns::Integer(0, most),
+          parameter::basic("1", "1"),
+          "Number of contact pairs, described by sections `Pair 1`, ...");
+      parameter::declare(
+          prm, "Obstacles", "0", Patterns::Integer(0, most),
+          parameter::basic("1", "1"),
+          "Number of rigid obstacles, described by sections `Obstacle 1`, ...");
+      parameter::declare(prm, "Degree", "auto", Patterns::Selection("auto|1|2"),
+                         parameter::advanced(),
+                         "Polynomial degree of the displacement. auto: 1 for "
+                         "quadrilaterals and hexahedra; 2 for triangles and "
+                         "tetrahedra, which are too stiff with degree 1.");
       // Known in both dimensions, so that one reference tells of it.
-      prm.declare_entry("Plane", "strain",
-                        Patterns::Selection("strain|stress|axisymmetric"),
-                        "What 2D stands for: plane strain, plane stress (per "
-                        "unit of thickness), or a body of revolution about x "
-                        "= 0, whose forces are those of the full circle. "
-                        "Without meaning in 3D.");
-      prm.declare_entry("Allow large strain", "false", Patterns::Bool(),
-                        "Whether strains from 50 %, or from a third in the "
-                        "mean of a body, are an answer to be used (exit code "
-                        "0) although they are computed as small ones, linear "
-                        "in the displacement.");
-      prm.declare_entry("Solve known failures", "false", Patterns::Bool(),
-                        "Solve pairs that are known to fail (codes ABUT-F01, "
-                        "F02, F11, F23, F24) where they would be refused, to "
-                        "measure how they fail: exit code 3 if they still "
-                        "would be in the end.");
-      prm.declare_entry("Gravity", "", FormulaPattern::vector(),
-                        "Acceleration: a formula for each component, separated "
-                        "by commas. Empty: none.");
+      parameter::declare(prm, "Plane", "strain",
+                         Patterns::Selection("strain|stress|axisymmetric"),
+                         parameter::basic(),
+                         "Model in 2D: plane strain, plane stress (per unit of "
+                         "thickness), or axisymmetric about x = 0, with forces "
+                         "of the full circle. Without effect in 3D.");
+      parameter::declare(
+          prm, "Accept strains beyond linear theory", "false", Patterns::Bool(),
+          parameter::expert(),
+          "Whether a result of `Material = hooke` with strains above 50 %, or "
+          "above 33 % in the mean of a body, ends with exit code 0.");
+      parameter::declare(
+          prm, "Solve known failures", "false", Patterns::Bool(),
+          parameter::expert(),
+          "Whether pairs with the failures ABUT-F01, F02, F11, F23 or F24 are "
+          "solved instead of rejected, for study only. The exit code is 3 if "
+          "the failure is still there at the end.");
+      parameter::declare(prm, "Gravity", "", TextPattern::vector(),
+                         parameter::basic("length/time^2", "0, -9810"),
+                         "Acceleration of gravity: a formula in x, y, z, t for "
+                         "each component. Acts on `Density` of bodies and "
+                         "`Mass` of obstacles. Empty: 0.");
       prm.leave_subsection();
     }
 
     void declare_solid_results(ParameterHandler &prm)
     {
       prm.enter_subsection("Exact solution");
-      prm.declare_entry("Displacement", "", FormulaPattern::vector(),
-                        "A formula for each component, separated by commas; if "
-                        "given, errors are computed.");
-      prm.declare_entry("Gradient", "", FormulaPattern::vector(),
-                        "Its gradient, `du_x/dx, du_x/dy, du_y/dx, du_y/dy`. "
-                        "Empty: by differences.");
-      prm.declare_entry("Energy", "nan", Patterns::Anything(),
-                        "Energy of the exact solution; nan: not known.");
+      parameter::declare(prm, "Displacement", "", TextPattern::vector(),
+                         parameter::advanced("length", "0, -0.1*y"),
+                         "Displacement of the exact solution: a formula for "
+                         "each component. If given, errors are computed.");
+      parameter::declare(prm, "Gradient", "", TextPattern::vector(),
+                         parameter::expert("1", "0, 0, 0, -0.1"),
+                         "Its gradient `du_x/dx, du_x/dy, du_y/dx, du_y/dy`. "
+                         "Empty: by finite differences.");
+      parameter::declare(prm, "Energy", "nan", TextPattern("a number, or nan"),
+                         parameter::expert("force*length", "0.25"),
+                         "Energy of the exact solution; nan: unknown.");
       prm.leave_subsection();
 
       prm.enter_subsection("Output");
-      prm.declare_entry("Fields", "true", Patterns::Bool(),
-                        "Write displacement and stress as VTU and PVD files "
-                        "for ParaView.");
-      prm.declare_entry("Every", "1", Patterns::Integer(1),
-                        "Write fields after every so many steps of a motion, "
-                        "and at its end.");
-      prm.declare_entry("All levels", "false", Patterns::Bool(),
-                        "Write fields on every level, not only on the last.");
-      prm.declare_entry("Nodal values", "false", Patterns::Bool(),
-                        "Write displacement and forces at all nodes of the "
-                        "last level as nodal.csv, with all digits.");
-      prm.declare_entry("Points", "", Patterns::Anything(),
-                        "Where displacements are wanted: the summary gets "
-                        "those of the nodes nearest to the points `1: 0, 0; 2: "
-                        "1, 0.5` (body: coordinates without load) as point_1, "
-                        "point_2, ...");
+      parameter::declare(prm, "Fields", "true", Patterns::Bool(),
+                         parameter::basic(),
+                         "Whether displacement and stress are written as VTU "
+                         "and PVD files for ParaView.");
+      parameter::declare(prm, "Every", "1", Patterns::Integer(1),
+                         parameter::advanced("time steps", "10"),
+                         "Time steps between two sets of fields of a motion. "
+                         "The last step is always written.");
+      parameter::declare(
+          prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
+          "Whether fields are written on every mesh, not only on the last.");
+      parameter::declare(
+          prm, "Nodal values", "false", Patterns::Bool(), parameter::advanced(),
+          "Whether displacement and forces at all nodes of the last mesh are "
+          "written to nodal.csv, in full precision.");
+      parameter::declare(
+          prm, "Points", "", TextPattern("a list of points by body"),
+          parameter::advanced("length", "1: 0, 0; block: 1, 0.5"),
+          "Points `body: coordinates` in the reference configuration. The "
+          "displacements of the nearest nodes are reported as point_1, "
+          "point_2, ...");
       prm.leave_subsection();
     }
   } // namespace
@@ -157,12 +173,11 @@ namespace abut::app
                        why + " Set it to full integration.");
     };
     if (degree > 1)
-      refuse("mean dilatation is for Solid/Degree = 1: one pressure in a cell "
-             "would take quadratic elements an order of accuracy, and they "
-             "hardly lock without it.");
+      refuse("mean dilatation is for Solid/Degree = 1: quadratic elements "
+             "would lose an order of accuracy, and hardly lock without it.");
     if (plane == PlaneModel::stress)
-      refuse("in plane stress (Solid/Plane) the thickness follows from the "
-             "other strains, nothing keeps the volume, and nothing locks.");
+      refuse("in plane stress (Solid/Plane) the thickness is free, and "
+             "elements do not lock.");
   }
 
   void SolidParameters::check_materials() const
@@ -176,12 +191,12 @@ namespace abut::app
     {
       if (body.material->large_strain != has_large_strain())
         throw InputError(body.parameter("Material"),
-                         words(false) + " is for small strain, and "
+                         words(false) + " is at small strain, and "
                              + bodies.front().parameter("Material")
-                             + " is not of the same kind: set both to "
-                             + words(false) + ", or both to " + words(true)
-                             + ". A stiff body hardly strains with any of "
-                               "them.");
+                             + " is not: set both to " + words(false)
+                             + ", or both to " + words(true)
+                             + ". Stiff bodies give nearly the same result "
+                               "with each of them.");
       check_element(body);
     }
     if (!has_large_strain())
@@ -189,24 +204,23 @@ namespace abut::app
     const auto refuse =
         [&words](const std::string &parameter, const std::string &why)
     {
-      throw InputError(parameter, why
-                                      + " Or describe bodies of small strain: "
-                                        "Body N/Material = "
-                                      + words(false) + ".");
+      throw InputError(parameter,
+                       why + " Or use small strain: Body N/Material = "
+                           + words(false) + ".");
     };
     if (plane == PlaneModel::stress)
-      refuse("Solid/Plane", "large strain is computed in plane strain, around "
-                            "an axis and in space, not in plane stress: set "
-                            "strain, or model the plate in three dimensions.");
+      refuse("Solid/Plane",
+             "finite strain is available in plane strain, axisymmetric and 3D, "
+             "not in plane stress: set strain, or model the plate in 3D.");
     if (time.is_on && time.stiffness_damping > 0.)
-      refuse("Time/Stiffness damping",
-             "the stiffness of the undeformed bodies would brake what only "
-             "turns: set Time/Mass damping, or Time/Scheme = hht, which damps "
-             "what vibrates fast.");
+      refuse("Time stepping/Stiffness damping",
+             "stiffness of the reference configuration would damp rigid "
+             "rotations: set Time stepping/Mass damping, or Time "
+             "stepping/Scheme = hht, which damps high frequencies.");
     if (refinement.has_target())
       refuse("Refinement/Target error",
-             "what the error estimate promises is known of small strain only; "
-             "Refinement/Adaptive cycles refines by it all the same.");
+             "the error estimate is guaranteed at small strain only; use "
+             "Refinement/Adaptive cycles, which refines by it.");
   }
 
   void SolidParameters::begin_simplices(const unsigned int dim,
@@ -220,15 +234,14 @@ namespace abut::app
                          "mean dilatation is for quadrilaterals and hexahedra: "
                          "linear "
                              + cells
-                             + " have one strain in each cell anyway. Set it "
-                               "to full integration, and Solid/Degree = 2.");
+                             + " have constant strain in each cell. Set it to "
+                               "full integration, and Solid/Degree = 2.");
     if (time.is_on && time.mass == ABUT_TIME_MASS_LUMPED && simplex_degree > 1)
-      throw InputError(
-          "Solid/Degree",
-          "quadratic " + cells
-              + " have no lumped mass: sums of rows are not positive at "
-                "corners. Set it to 1, or Time/Scheme and Time/Mass to ones "
-                "with another mass.");
+      throw InputError("Solid/Degree",
+                       "quadratic " + cells
+                           + " have no lumped mass: row sums are not positive "
+                             "at corners. Set it to 1, or use another Time "
+                             "stepping/Mass matrix or Scheme.");
   }
 
   void SolidParameters::begin_motion()
@@ -236,8 +249,8 @@ namespace abut::app
     for (const BodyParameters &body : bodies)
       if (body.density <= 0.)
         throw InputError(body.parameter("Density"),
-                         "a body that moves has mass: set its density, or "
-                         "Time/Scheme = none.");
+                         "dynamics needs mass: set a density, or Time "
+                         "stepping/Scheme = quasi-static.");
     if (has_large_strain())
       time.scheme.growth = std::max(time.scheme.growth, growth_of_large_strain);
     time.fit(refinement);
@@ -261,9 +274,9 @@ namespace abut::app
     LoadStepParameters::declare(prm);
     InertiaParameters::declare(
         prm,
-        "none|hht|trapezoid|midpoint|newmark|generalised alpha|contact "
+        "quasi-static|hht|trapezoid|midpoint|newmark|generalised alpha|contact "
         "stabilised|central difference with projection",
-        "A step that fails is halved, see `Load steps/Cut back`.");
+        "A step that fails is halved, see `Cut back`.");
     RefinementParameters::declare(prm, "2", "0");
     declare_solid_results(prm);
   }
@@ -278,7 +291,7 @@ namespace abut::app
     plane = word == "strain"   ? PlaneModel::strain
             : word == "stress" ? PlaneModel::stress
                                : PlaneModel::axisymmetric;
-    large_strain = prm.get_bool("Allow large strain");
+    large_strain = prm.get_bool("Accept strains beyond linear theory");
     solve_known_failures = prm.get_bool("Solve known failures");
     gravity = prm.get("Gravity");
     prm.leave_subsection();

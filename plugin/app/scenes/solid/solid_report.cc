@@ -28,6 +28,8 @@ namespace abut::app
 
   namespace
   {
+    constexpr const char *plane_names[] = {"strain", "stress", "axisymmetric"};
+
     /** Part of the normal force that friction carries where it counts. */
     constexpr double visible_friction = 1e-3;
 
@@ -91,13 +93,20 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::check() const
   {
+    for (const BoundaryPart<dim> &part :
+         boundary_parts(model.triangulation, communicator))
+      report.print("  " + bodies.name(part.id) + ": " + in_words(part));
+    if (!model.motion)
+      for (const std::string &line : model.rigid_motions())
+        report.print("  " + line);
+    for (const RigidObstacleParameters &obstacle : parameters.obstacles)
+      report.print("  obstacle " + obstacle.section.substr(9) + ": "
+                   + obstacle.kind
+                   + (obstacle.free.empty() ? "" : ", driven by forces"));
     if (!pairs.empty())
       report_checks();
     report_shares();
     report.set("bodies", bodies.size());
-    for (const BoundaryPart<dim> &part :
-         boundary_parts(model.triangulation, communicator))
-      report.progress(bodies.name(part.id) + ": " + in_words(part));
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
@@ -177,13 +186,23 @@ namespace abut::app
       report.set(key + "_reversed", check.n_reversed);
       // A run moves bodies without supports across clearances.
       const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
+      report.print(
+          "  pair " + std::to_string(number) + ": " + sides_of(pair) + ", "
+          + std::to_string(check.secondary_facets) + " facets"
+          + (pair.obstacle ? "" : " on " + std::to_string(check.primary_facets))
+          + (dim == 2 ? ", length " : ", area ") + short_number(check.area, 6)
+          + ", of which " + short_number(check.covered_area, 6)
+          + " has a partner"
+          + (check.overlap > 0.
+                 ? ", initial overlap " + short_number(check.overlap, 3)
+                 : ""));
       const bool may_come = pair.holds_body && pair.obstacle;
       for (const Message &warning : check.warnings)
         if (may_come && warning.failure == ABUT_FAILURE_NO_PARTNER)
-          report.progress(check.name
-                          + ": not within reach of the obstacle; a run "
-                            "moves the body, which has no supports that way, "
-                            "to where forces press it.");
+          report.print(
+              "  " + check.name
+              + ": not within reach of the obstacle; a run moves the body, "
+                "which has no support in that direction, into contact.");
         else
           report.warn(about(check.name, warning));
     }
@@ -205,10 +224,9 @@ namespace abut::app
             "Pair " + std::to_string(number) + " hands "
                 + short_number(100. * error, 2)
                 + " % of a uniform pressure to wrong nodes of its primary "
-                  "surface, because the meshes do not match: the contact "
-                  "pressure has an error of this size, which refinement does "
-                  "not lower. Use Method/Discretisation = mortar or dual "
-                  "mortar."));
+                  "surface, because the meshes do not match. The contact "
+                  "pressure has an error of this size on all meshes. Use "
+                  "Method/Discretisation = mortar or dual mortar."));
     }
   }
 
@@ -249,12 +267,38 @@ namespace abut::app
             "Pair " + std::to_string(number) + ": in contact, "
                 + model.text_of_bend(
                     bend,
-                    "the pressure there may be off by "
+                    "the pressure there may have an error of "
                         + (part < 0.5 ? "some " + short_number(100. * part, 2)
                                             + " % of its largest value"
                                       : std::string("half of it and more"))
-                        + ", the more the finer the mesh")));
+                        + ", more on finer meshes")));
     }
+  }
+
+  template <int dim>
+  std::string SolidReport<dim>::sides_of(const ContactPair<dim> &pair) const
+  {
+    const auto bodies_of =
+        [&](const std::set<dealii::types::boundary_id> &surface)
+    {
+      std::set<unsigned int> numbers;
+      for (const auto id : surface)
+        numbers.insert(bodies.body_of(id));
+      std::string text;
+      for (const unsigned int body : numbers)
+        text += (text.empty() ? "" : " and ") + bodies.name_of_body(body);
+      return text;
+    };
+    const std::string secondary = bodies_of(pair.secondary);
+    if (pair.obstacle)
+    {
+      const std::size_t index = &pair - pairs.pairs().data();
+      return secondary + " on obstacle "
+             + std::to_string(parameters.pairs.at(index).obstacle);
+    }
+    return secondary + (pair.tied ? " tied to " : " on ")
+           + (pair.secondary == pair.primary ? "itself"
+                                             : bodies_of(pair.primary));
   }
 
   template <int dim>
@@ -267,6 +311,7 @@ namespace abut::app
     for (const PairResult<dim> &pair : contact.results().pairs())
     {
       const std::string key = "pair_" + std::to_string(++number);
+      report.set(key + "_sides", sides_of(pairs.pairs().at(number - 1)));
       const bool has_friction =
           pairs.pairs().at(number - 1).friction != nullptr;
       for (const PairMeasure<dim> &measure : pair_measures<dim>())
@@ -449,6 +494,8 @@ namespace abut::app
     SectionTimes::Scope scope(report.times, "results");
     report.set("converged", converged);
     report.set("bodies", bodies.size());
+    if (dim == 2)
+      report.set("plane", plane_names[static_cast<int>(parameters.plane)]);
     report.set("load_steps", run.load_steps.n_accepted());
     report.set("load_steps_cut_back", run.load_steps.n_rejected());
     if (run.results.empty())
@@ -474,8 +521,11 @@ namespace abut::app
     if (last.estimate && last.errors)
       report.set("effectivity", *last.estimate / *last.errors->energy);
     if (!std::isnan(parameters.exact_energy))
+    {
       report.set("energy_error",
                  std::abs(last.energy - parameters.exact_energy));
+      report.expect("energy", parameters.exact_energy);
+    }
     if (run.control.is_on())
       run.control.report(report, relative_error());
     report_points();
@@ -535,16 +585,14 @@ namespace abut::app
                            elasticity.ghosted(u), model.data.materials);
     examined(report, "volumetric_locking", locked, visible_locking, no_limit);
     if (locked > visible_locking)
-      report.warn(coded(
-          ABUT_FAILURE_LOCKING,
-          short_number(100. * locked, 2)
-              + " % of the strain energy is volume change within cells, which "
-                "linear elements cannot avoid: with Poisson ratio "
-              + short_number(poisson_ratio, 6)
-              + " they lock, displacements are too small and contact forces "
-                "too large. Set Body N/Element = mean dilatation, or "
-                "Solid/Degree "
-                "= 2."));
+      report.warn(coded(ABUT_FAILURE_LOCKING,
+                        short_number(100. * locked, 2)
+                            + " % of the strain energy is spurious volume "
+                              "change of linear elements: with Poisson ratio "
+                            + short_number(poisson_ratio, 6)
+                            + " they lock; displacements are too small and "
+                              "contact forces too large. Set Body N/Element = "
+                              "mean dilatation, or Solid/Degree = 2."));
     return locked;
   }
 
@@ -563,12 +611,12 @@ namespace abut::app
     report.warn(coded(
         ABUT_FAILURE_LOCKING,
         short_number(100. * locked, 2)
-            + " % of the strain energy is an error, by an estimate that is "
-              "low on coarse meshes: linear "
+            + " % of the strain energy is an error (estimate, low on coarse "
+              "meshes): linear "
             + cells
-            + " have one strain in each cell and are too stiff. Under loads "
-              "displacements are too small by as much, prescribed ones take "
-              "too large forces. Set Solid/Degree = 2."));
+            + " have constant strain in each cell and are too stiff. "
+              "Displacements under loads are too small, or forces at "
+              "prescribed displacements too large. Set Solid/Degree = 2."));
     return locked;
   }
 
@@ -595,10 +643,9 @@ namespace abut::app
             ? "facets of bodies for each other: "
                   + std::to_string(run.n_searches) + " times, of which "
                   + std::to_string(run.contact.results().effort().points.kept)
-                  + " had moved too little for other points, and "
-                    "a check after each solve"
-            : "gaps to obstacles are formulas: no facet is "
-              "looked for");
+                  + " moved too little for new pairs, and a check after each "
+                    "solve"
+            : "gaps to obstacles are formulas: there is no search");
     if (method.law_is_automatic && !pairs.empty())
       report.model("automatic law", true, method.options.law->name);
     report.model("friction", pairs.has_friction(),
@@ -616,11 +663,11 @@ namespace abut::app
                  model.has_inertia()
                      ? std::string("scheme ") + parameters.time.scheme.name
                      : "each load step is in equilibrium");
-    report.model("obstacles moved by forces", model.places_obstacles(),
+    report.model("obstacles driven by forces", model.places_obstacles(),
                  model.places_obstacles()
                      ? std::to_string(model.driven.n_places())
-                           + " places were tried, each a contact problem"
-                     : "obstacles are where their motions say");
+                           + " positions were tried, each a contact problem"
+                     : "obstacles follow their Motion");
     report.model("large strain", model.has_large_strain(),
                  model.has_large_strain()
                      ? "strains and rotations of any size"
@@ -644,8 +691,8 @@ namespace abut::app
     if (run.load_steps.n_accepted() > 1 && !pairs.has_friction()
         && !model.has_inertia())
       report.leave_out(
-          "load steps: without friction the last answer does not depend on "
-          "those before it; if only it is wanted, Load steps/Steps = 1.");
+          "load steps: without friction the last result does not depend on the "
+          "steps before; Time stepping/Number of steps = 1 gives the same.");
     if (pairs.empty() || run.results.empty())
       return;
     for (const PairResult<dim> &pair : contact.results().pairs())
@@ -665,11 +712,10 @@ namespace abut::app
         part = std::max(part, state.friction_force / state.force);
     if (part < visible_friction)
       report.leave_out(
-          "friction, unless it holds a body: it never carried more "
-          "than "
+          "friction, unless it supports a body: it never carried more than "
           + short_number(100. * part, 2)
           + " % of the normal force, and it makes linear systems "
-            "unsymmetric.");
+            "nonsymmetric.");
   }
 
   template class SolidReport<2>;

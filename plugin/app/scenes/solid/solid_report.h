@@ -42,6 +42,8 @@ namespace abut::app
     double report_linear_simplices() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
     std::pair<double, double> report_pairs() const;
+    /** "body 2 on body 1". */
+    std::string sides_of(const ContactPair<dim> &pair) const;
     /** What angles of coarse facets do to pressures. */
     void report_chords() const;
     void report_friction() const;

@@ -23,10 +23,11 @@ namespace abut::app
 
     /** Parameters that have no effect on triangles and tetrahedra. */
     constexpr CubeParameter of_cubes[] = {
-        {"Refinement/Nested iteration", "all their levels are made at once."},
+        {"Refinement/Nested iteration",
+         "all their levels are created at once."},
         {"Refinement/Coarsest level",
-         "there is no nested iteration, all their levels are made at once."},
-        {"Refinement/Coarsen fraction", "they are bisected, and stay so."}};
+         "there is no nested iteration, all their levels are created at once."},
+        {"Refinement/Coarsen fraction", "they cannot be coarsened."}};
 
     /** Whether points can move in this way in all pairs that may slide.
      * @param tri6 [pairs] whether secondary facets are quadratic triangles */
@@ -83,8 +84,8 @@ namespace abut::app
         for (const CubeParameter &each : of_cubes)
           if (!file.get(each.path, "").empty())
             given_of_cubes.push_back(each);
-        has_quadratic_multipliers =
-            file.get("Method/Multiplier degree", "") == "0";
+        const std::string degree = file.get("Method/Multiplier degree", "");
+        has_quadratic_multipliers = degree == "auto" || degree == "0";
       }
 
     private:
@@ -105,8 +106,8 @@ namespace abut::app
         if (parameters.has_large_strain()
             && abut_law_needs_stress(this->method.options.law))
           throw InputError("Method/Enforcement",
-                           "nitsche takes the stress for linear in the "
-                           "displacement, and Body 1/Material is for large "
+                           "nitsche needs a stress that is linear in the "
+                           "displacement, and Body 1/Material is at finite "
                            "strain: use lagrange or augmented lagrangian.");
         this->method.solve_known_failures = parameters.solve_known_failures;
         given_kinematics = this->method.kinematics;
@@ -151,9 +152,9 @@ namespace abut::app
         if (has_quadratic_multipliers && !tri6.empty()
             && std::count(tri6.begin(), tri6.end(), false) == 0)
           throw InputError("Method/Multiplier degree",
-                           "0 is degree 2 here, and the shape functions of "
+                           "auto is degree 2 here, and the shape functions of "
                            "quadratic triangles have no weight at the corners: "
-                           "leave it out, multipliers have degree 1.");
+                           "leave it out for degree 1.");
         const char *why = nullptr;
         if (std::count(tri6.begin(), tri6.end(), true) > 0
             && this->method.discretisation
@@ -191,8 +192,8 @@ namespace abut::app
                  "write the file with straight edges.");
         if (meshes.has_cubes())
           refuse(std::string("bodies of ")
-                     + (dim == 2 ? "triangles beside others of quadrilaterals"
-                                 : "tetrahedra beside others of hexahedra")
+                     + (dim == 2 ? "triangles together with quadrilaterals"
+                                 : "tetrahedra together with hexahedra")
                      + " are refined in all cells only",
                  "mesh all bodies with the same kind of cells.");
       }
