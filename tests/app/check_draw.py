@@ -145,7 +145,7 @@ def check_kinds():
             ("hertz-2d.prm", {"Refinement/Adaptive cycles": 1},
              {"bodies", "tractions", "convergence"}),
             ("patch-3d.prm", {}, {"bodies", "convergence"}),
-            ("bar-impact.prm", {"Time/End": 0.05},
+            ("bar-impact.prm", {"Time stepping/End time": 0.05},
              {"bodies", "tractions", "motion"}),
             ("dynamics-bouncing-ball.prm", {}, {"motion"}),
             ("search-flat.prm", {"Sweep/Bucket sizes": "1 2"},

@@ -15,13 +15,19 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"new", Command::new_scene},    {"run", Command::run},
-        {"check", Command::check},      {"search", Command::search},
-        {"chart", Command::tool},       {"atlas", Command::tool},
-        {"draw", Command::tool},        {"report", Command::tool},
+        {"new", Command::new_scene},
+        {"run", Command::run},
+        {"check", Command::check},
+        {"search", Command::search},
+        {"chart", Command::tool},
+        {"atlas", Command::tool},
+        {"draw", Command::tool},
+        {"report", Command::tool},
         {"parameters", Command::parameters},
-        {"serve", Command::serve},      {"help", Command::help},
-        {"--help", Command::help},      {"-h", Command::help},
+        {"serve", Command::serve},
+        {"help", Command::help},
+        {"--help", Command::help},
+        {"-h", Command::help},
         {"--version", Command::version}};
 
     const char *const general_help =
@@ -156,7 +162,14 @@ Exit code: 0 drawn, 2 wrong input or no such Python, 3 nothing to draw.
 )"},
         {"report", R"(abut report FOLDER [options]
 
-Write a page (HTML) about a run from the files in its output folder.
+Write a page (HTML) about a run from the files in its output folder: verdict,
+problem, results, pictures, examination, convergence, cost, parameters. It needs
+Python 3 with NumPy and Matplotlib, as 'abut draw' does.
+
+  --output FILE    the page (default: FOLDER/report.html)
+  --quiet          print warnings and errors only
+
+Exit code: 0 written, 2 wrong input or no such Python.
 )"},
         {"parameters", R"(abut parameters [options]
 

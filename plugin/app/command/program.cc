@@ -181,10 +181,6 @@ namespace abut::app
       report.check_expected();
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
-      // Of warnings about pictures the summary shall know, too.
-      if (options.pictures && is_root(communicator)
-          && !draw_run(report, options.output_folder))
-        report.write(options.output_folder);
       if (restart)
         restart->finish();
       report.print_summary();
@@ -196,6 +192,28 @@ namespace abut::app
         report.print("  all figures: summary.json, or abut run --verbose");
       return outcome == Outcome::converged ? ExitCode::success
                                            : ExitCode::unusable_answer;
+    }
+
+    /** The page about a run that ended in any way, if it is wanted. Rank 0
+     * acts. */
+    void write_page(MPI_Comm communicator, const std::filesystem::path &folder,
+                    const std::string &wanted)
+    {
+      if (is_root(communicator) && wanted == "true")
+        for (const std::string &warning : read_run("report", folder))
+          std::cerr << "abut: warning: " << warning << std::endl;
+    }
+
+    /** Warnings about pictures are in the summary, too. Rank 0 acts. */
+    void draw_pictures(const RunOptions &options, Report &report)
+    {
+      if (!options.pictures || !is_root(options.communicator))
+        return;
+      const auto warnings = read_run("draw", options.output_folder);
+      for (const std::string &warning : warnings)
+        report.warn(warning);
+      if (!warnings.empty())
+        report.write(options.output_folder);
     }
 
     ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
@@ -216,15 +234,21 @@ namespace abut::app
                  });
       Report report(communicator, verbosity(line));
       loaded.describe(report);
+      const std::string page = loaded.get("Output", "Report");
       try
       {
         const ExitCode code = solve_scene(loaded, options, line, report);
         status.end(code, "", code != ExitCode::stopped);
+        if (code == ExitCode::stopped)
+          return code;
+        draw_pictures(options, report);
+        write_page(communicator, options.output_folder, page);
         return code;
       }
       catch (const InputError &error)
       {
         record_error(status, loaded.file.placed(error), report.has_rows());
+        write_page(communicator, options.output_folder, page);
         throw;
       }
       catch (const std::exception &error)
@@ -258,6 +282,8 @@ namespace abut::app
             std::filesystem::remove(folder / name, ignored);
         StatusFile status(communicator, folder, line.words, line.file);
         record_error(status, error, false);
+        write_page(communicator, folder,
+                   file ? file->get("Output/Report", "") : "");
       }
       catch (const InputError &)
       {

@@ -30,7 +30,7 @@ namespace abut::app
           return tools;
         if (folder == folder.root_path())
           throw InputError("", "the folder share/abut/tools was not found "
-                               "beside "
+                               "near "
                                    + program.string()
                                    + ": install the program again.");
       }
@@ -89,33 +89,27 @@ namespace abut::app
                : ExitCode::internal_error;
   }
 
-  bool draw_run(Report &report, const fs::path &folder)
+  std::vector<std::string> read_run(const std::string &tool,
+                                    const fs::path &folder)
   {
-    const fs::path log = folder / "draw.log";
-    bool is_drawn = true;
-    const auto warn = [&](const std::string &text)
-    {
-      report.warn(text);
-      is_drawn = false;
-    };
+    const fs::path log = folder / (tool + ".log");
     try
     {
-      const bool well = start({"draw", folder.string(), "--quiet"}, log).well();
+      const bool well = start({tool, folder.string(), "--quiet"}, log).well();
       std::istringstream said(read_from_disk(log));
+      std::vector<std::string> warnings;
       std::string last;
       for (std::string line; std::getline(said, line); last = line)
-        if (well)
-          warn(without(line, "abut: warning: "));
-      if (well)
-        fs::remove(log);
-      else
-        warn("the pictures were not drawn: " + without(last, "abut: error: ")
-             + " (see " + log.string() + ")");
+        warnings.push_back(without(line, "abut: warning: "));
+      if (!well)
+        return {"abut " + tool + ": " + without(last, "abut: error: ")
+                + " (see " + log.string() + ")"};
+      fs::remove(log);
+      return warnings;
     }
     catch (const std::exception &error)
     {
-      warn("the pictures were not drawn: " + std::string(error.what()));
+      return {error.what()};
     }
-    return is_drawn;
   }
 } // namespace abut::app

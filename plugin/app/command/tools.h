@@ -7,7 +7,6 @@
  */
 
 #include "app/input/input_error.h"
-#include "app/report/report.h"
 
 #include <filesystem>
 #include <string>
@@ -20,9 +19,11 @@ namespace abut::app
    * collective. */
   ExitCode run_tool(const std::vector<std::string> &words);
 
-  /** Draw the pictures of a finished run. A failure is a warning of the report.
-   * Not collective, for rank 0; returns whether there is no warning. */
-  bool draw_run(Report &report, const std::filesystem::path &folder);
+  /** Let a tool, `draw` or `report`, read the folder of a run that has ended.
+   * Returns warnings, also of a tool that failed. Not collective, for rank 0.
+   */
+  std::vector<std::string> read_run(const std::string &tool,
+                                    const std::filesystem::path &folder);
 } // namespace abut::app
 
 #endif

@@ -5,9 +5,9 @@
 #include "app/input/expression.h"
 #include "app/input/input_error.h"
 
+#include <abut/dealii/pair_measures.h>
 #include <abut/dealii/parameter_entry.h>
 #include <abut/dealii/text_pattern.h>
-#include <abut/dealii/pair_measures.h>
 
 #include <deal.II/base/utilities.h>
 

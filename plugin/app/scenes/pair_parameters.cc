@@ -72,19 +72,18 @@ namespace abut::app
         "without supports.");
     parameter::declare(prm, "Closed form", "", TextPattern("a name"),
                        parameter::advanced("", "Hertz"),
-                       "Name of the exact solution that pictures of a plane "
-                       "scene show beside the computed tractions.");
+                       "Name of the solution from theory that pictures of "
+                       "plane scenes show with the computed tractions.");
     parameter::declare(
-        prm, "Closed form of pressure", "", TextPattern::formula(),
-        parameter::advanced("force/length^2", "2*Fy/pi*sqrt(1 - x^2)"),
-        "Exact pressure at the points of the secondary surface: a formula in "
-        "x, y, t and the forces of the run on the secondary surface, Fx and Fy "
-        "in all, Qx and Qy of friction. Empty: none.");
+        prm, "Closed form of pressure", "", TextPattern("a formula"),
+        parameter::advanced("force/length^2", "4*Fy/pi*sqrt(max(0, 1 - x^2))"),
+        "Its pressure on the secondary surface: a formula in x, y, t and the "
+        "forces of the run on that surface, Fx, Fy in all and Qx, Qy of "
+        "friction. Empty: none.");
     parameter::declare(
-        prm, "Closed form of friction", "", TextPattern::formula(),
-        parameter::advanced("force/length^2", "0.3*sqrt(1 - x^2)"),
-        "Exact traction along the secondary surface, a formula like `Closed "
-        "form of pressure`. Empty: none.");
+        prm, "Closed form of friction", "", TextPattern("a formula"),
+        parameter::advanced("force/length^2", "0.3*Fy/pi"),
+        "Its tangential traction, a formula like `Closed form of pressure`.");
     prm.leave_subsection();
   }
 

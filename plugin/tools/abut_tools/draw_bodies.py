@@ -187,7 +187,7 @@ def _draw_states(axes, contact, factor):
             continue
         axes.add_collection(style.named(collections.LineCollection(
             chosen, colors=colour, linewidths=2.4 if number else 1.2,
-            zorder=2.5), f"state_{number}"))
+            zorder=3.5), f"state_{number}"))
         found.append((number, text, colour))
     if not any(number == 2 for number, _, _ in found):
         found = [(number, "contact" if number == 1 else text, colour)

@@ -89,7 +89,7 @@ def pictures(run, width):
         yield "path", _path(model, run, width)
     else:
         warn("no pictures: they are drawn for one mass with one inequality and "
-             "Sweep/Penalties, and for two masses.")
+             "Sweep/Penalty factors, and for two masses.")
 
 
 def _energy(mass, sweep, width):

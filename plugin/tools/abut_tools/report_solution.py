@@ -198,7 +198,7 @@ KINDS = (
     (".pvtu", "fields of one time or mesh, for ParaView"),
     (".vtu", "part of the fields, for ParaView"),
     (".csv", "contact line of a pair: pressure, gap, state"),
-    (".svg", "picture"), (".png", "picture"), (".gp", "script of gnuplot"),
+    (".svg", "picture"), (".png", "picture"),
 )
 
 
