@@ -21,7 +21,8 @@ else()
   # the release build that is wanted.
   install(TARGETS abut_app CONFIGURATIONS Release
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/abut)
+  install(DIRECTORY prm plugin/tools DESTINATION ${CMAKE_INSTALL_DATADIR}/abut
+    PATTERN __pycache__ EXCLUDE)
 endif()
 
 configure_package_config_file(plugin/cmake/AbutConfig.cmake.in

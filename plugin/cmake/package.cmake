@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 # need none of them.
 if(NOT ABUT_CORE_ONLY)
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
-    "gnuplot-nox | gnuplot, libdeal.ii-dev, mpi-default-bin")
+    "python3-matplotlib, libdeal.ii-dev, mpi-default-bin")
 endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ABUT_CORE_ONLY)
   set(ABUT_DEBUG_BUILD ${PROJECT_SOURCE_DIR}/build/dev)

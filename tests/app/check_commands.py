@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the commands print, and what a run writes."""
-import os
 import re
 
 from program import Program
@@ -16,7 +15,8 @@ for name in ("abut", "deal.II", "Trilinos"):
 for words in ([], ["--help"], ["help"]):
     p.expect("abut run SCENE.prm" in p.call(*words).stdout, f"help {words}")
 p.expect("--output" in p.call("help", "run").stdout, "help run")
-for command in ("run", "check", "search", "chart", "atlas", "parameters"):
+for command in ("run", "check", "search", "chart", "atlas", "draw", "report",
+                "parameters"):
     p.expect(p.call(command, "--help").stdout == p.call("help", command).stdout
              and p.call(command, "--help").returncode == 0, f"{command} --help")
 
@@ -61,23 +61,5 @@ result = p.call("run", scene, "--output", "out", "--set",
 p.expect(result.returncode == 3, f"exit code {result.returncode}, not 3")
 p.expect("warning" in result.stderr, "no word about the failure")
 p.expect(p.results()[0]["converged"] is False, "unconverged summary")
-
-# Pictures.
-p.solve("point-mass.prm", "--set", "Output/Pictures=true")
-for name in ("energy", "penalty", "lagrangian"):
-    p.expect((p.folder / f"out/{name}.svg").exists(), f"no {name}.svg")
-
-# Without a gnuplot that works: a warning, the scripts, and everything else.
-(p.folder / "bin").mkdir()
-for code, words in ((127, "gnuplot is not installed"), (1, "gnuplot failed")):
-    fake = p.folder / "bin/gnuplot"
-    fake.write_text(f"#!/bin/sh\nexit {code}\n")
-    fake.chmod(0o755)
-    result = p.call("run", scene, "--output", "bare", "--quiet", environment={
-        "PATH": f"{fake.parent}:{os.environ['PATH']}"})
-    p.expect(result.returncode == 0, "exit code " + result.stderr)
-    p.expect(words in result.stderr, f"no '{words}' in {result.stderr}")
-    p.expect((p.folder / "bare/energy.gp").exists()
-             and not (p.folder / "bare/energy.svg").exists(), "scripts")
 
 p.finish()

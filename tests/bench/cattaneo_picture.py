@@ -4,7 +4,7 @@
 
 Runs prm/cattaneo-cylinders.prm: pulled to Q1, back to no force, and on to -Q1,
 and draws the traction of each node over the curve that theory has for the forces
-of that run. Needs gnuplot.
+of that run. Needs Matplotlib.
 
     tests/bench/cattaneo_picture.py build/release/abut picture.svg
 """
@@ -15,6 +15,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+
+import pictures
 
 SCENE = (pathlib.Path(__file__).resolve().parents[2]
          / "prm/cattaneo-cylinders.prm")
@@ -58,28 +60,34 @@ def closed_form(x, normal, first, force):
 def main():
     if len(sys.argv) != 3:
         raise SystemExit(__doc__)
-    plots, data = [], []
+    style = pictures.style
+    figure, [[axes]] = style.figure(style.PAGE, 0.5)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         first = None
-        for label, back in (("Q = Q1", None), ("Q = 0", 0.0295),
-                            ("Q = -Q1", 2. * PULL)):
+        for i, (label, back) in enumerate((("$Q = Q_1$", None),
+                                           ("$Q = 0$", 0.0295),
+                                           ("$Q = -Q_1$", 2. * PULL))):
             normal, force, nodes = run(sys.argv[1], folder / "out", back)
             first = first if first is not None else force
+            half = math.sqrt(4. * normal * RADIUS / (math.pi * MODULUS))
+            bound = MU * 2. * normal / (math.pi * half)
             edge = 1.05 * max(abs(x) for x, _ in nodes)
-            curve = [edge * i / 500. for i in range(-500, 501)]
-            color = len(plots) // 2 + 1
-            plots += [f"'-' with lines lc {color} notitle",
-                      f"'-' with points pt 6 ps 0.5 lc {color} title '{label}'"]
-            data += [[(x, closed_form(x, normal, first, force))
-                      for x in curve], nodes]
-    script = ("set terminal svg size 640,420\n"
-              f"set output '{sys.argv[2]}'\n"
-              "set xlabel 'x'\nset ylabel 'traction along the surface'\n"
-              "set key outside\nplot " + ", ".join(plots) + "\n")
-    for points in data:
-        script += "".join(f"{x:.6g} {q:.6g}\n" for x, q in points) + "e\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+            curve = [edge * k / 500. for k in range(-500, 501)]
+            axes.plot([x / half for x in curve],
+                      [closed_form(x, normal, first, force) / bound
+                       for x in curve], color=style.COLOURS[i],
+                      linewidth=0.9)
+            axes.plot([x / half for x, _ in nodes],
+                      [q / bound for _, q in nodes], style.MARKERS[i],
+                      color=style.COLOURS[i], fillstyle="none", markersize=3,
+                      label=label)
+    axes.plot([], [], color=style.GREY, linewidth=0.9,
+              label="Cattaneo and Mindlin")
+    axes.set_xlabel("position / half width of contact, $x/a$")
+    axes.set_ylabel(r"tangential traction $q/(\mu p_0)$")
+    style.legend(axes)
+    pictures.save(figure, sys.argv[2])
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ time, without friction and with that of the scene.
 
 Runs prm/ironing-3d.prm, draws the vertical and the horizontal force on the die,
 and prints load steps, linearisations and what moments of the two sides are out of
-balance by at the end. Needs gnuplot.
+balance by at the end. Needs Matplotlib.
 
     tests/bench/ironing_3d_picture.py build/release/abut picture.svg
 """
@@ -15,6 +15,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+
+import pictures
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "prm/ironing-3d.prm"
 
@@ -46,22 +48,29 @@ def main():
     if len(sys.argv) != 3:
         raise SystemExit(__doc__)
     abut, picture = sys.argv[1:]
-    plots, data = [], []
+    curves = []
     with tempfile.TemporaryDirectory() as folder:
-        for n, mu in enumerate(("0", "0.3"), 1):
+        for mu in ("0", "0.3"):
             rows = run(abut, pathlib.Path(folder) / mu, mu)
-            for name, axis, sign, dash in (("V", "z", -1, 1), ("H", "x", 1, 2)):
-                plots.append(f"'-' with linespoints pt 7 ps 0.3 lc {n} dt {dash} "
-                             f"title '{name}, mu = {mu}'")
-                data.append([(row["time"], sign * row[f"pair_1_force_{axis}"])
-                             for row in rows])
-    script = ("set terminal svg size 640,360\n"
-              f"set output '{picture}'\n"
-              "set xlabel 't'\nset ylabel 'force on the die'\n"
-              "set key outside\nplot " + ", ".join(plots) + "\n")
-    for points in data:
-        script += "".join(f"{x:.6g} {y:.6g}\n" for x, y in points) + "e\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+            curves.append((mu, [(row["time"], -row["pair_1_force_z"],
+                                 row["pair_1_force_x"]) for row in rows]))
+    draw(picture, curves)
+
+
+def draw(picture, curves):
+    """Time, vertical and horizontal force for each friction coefficient."""
+    style = pictures.style
+    figure, [[axes]] = style.figure(style.PAGE, 0.42)
+    for n, (mu, rows) in enumerate(curves):
+        for name, k in (("vertical $V$", 1), ("horizontal $H$", 2)):
+            axes.plot([row[0] for row in rows], [row[k] for row in rows],
+                      color=style.COLOURS[n], marker=style.MARKERS[n],
+                      linestyle=style.DASHES[k - 1], markersize=2,
+                      label=f"{name}, $\\mu$ = {mu}")
+    axes.set_xlabel("time $t$: pressed until 1, then drawn")
+    axes.set_ylabel("force on the die [force]")
+    style.legend(axes)
+    pictures.save(figure, picture)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@
 
 Runs prm/ironing.prm at each refinement level that is named, prints the forces at
 t = 1.5 and draws both of the last level and the vertical one of the others; bars
-are the published ranges, V from 337 to 421 and H from 102 to 189. Needs gnuplot.
+are the published ranges, V from 337 to 421 and H from 102 to 189. Needs
+Matplotlib.
 
     tests/bench/ironing_picture.py build/release/abut picture.svg 1 2
 """
@@ -14,6 +15,8 @@ import statistics
 import subprocess
 import sys
 import tempfile
+
+import pictures
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "prm/ironing.prm"
 PUBLISHED = {"V": (337., 421.), "H": (102., 189.)}
@@ -57,24 +60,23 @@ def ripple(values):
 
 
 def draw(picture, curves):
-    plots, data = [], []
-    for n, (level, rows) in enumerate(curves, 1):
-        for name, k in (("V", 1), ("H", 2)):
-            plots.append(f"'-' with lines lc {n} dt {k} "
-                         f"title '{name}, level {level}'")
-            data.append([(row[0], row[k]) for row in rows])
-    for name, (low, high) in PUBLISHED.items():
-        plots.append("'-' with yerrorbars pt 0 lw 2 lc 'black' "
-                     f"title '{name}, published'")
-        data.append([(1.5, (low + high) / 2, low, high)])
-    script = ("set terminal svg size 640,420\n"
-              f"set output '{picture}'\n"
-              "set xlabel 't'\nset ylabel 'force on the die, N per mm'\n"
-              "set key outside\nplot " + ", ".join(plots) + "\n")
-    for points in data:
-        script += "".join(" ".join(f"{x:.6g}" for x in point) + "\n"
-                          for point in points) + "e\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    style = pictures.style
+    figure, [[axes]] = style.figure(style.PAGE, 0.45)
+    for n, (level, rows) in enumerate(curves):
+        for name, k, dashes in (("vertical $V$", 1, "-"),
+                                ("horizontal $H$", 2, style.DASHES[1])):
+            axes.plot([row[0] for row in rows], [row[k] for row in rows],
+                      color=style.COLOURS[n], linestyle=dashes,
+                      label=f"{name}, level {level}")
+    for (name, (low, high)), shift in zip(PUBLISHED.items(), (-0.01, 0.01)):
+        axes.errorbar(1.5 + shift, (low + high) / 2, (high - low) / 2,
+                      color=style.BLACK, capsize=3, linewidth=1.4, zorder=3,
+                      fmt="s" if name == "V" else "D",
+                      label=f"${name}$, range of published results")
+    axes.set_xlabel("time $t$: pressed until 1, then drawn")
+    axes.set_ylabel("force on the die [N/mm]")
+    style.legend(axes)
+    pictures.save(figure, picture)
 
 
 if __name__ == "__main__":

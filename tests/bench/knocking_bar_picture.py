@@ -4,7 +4,7 @@
 
 Runs prm/dynamics-periodic-bar.prm over 100 periods with each scheme and half of
 its step, draws kinetic + strain + contact energy at the end of each period by
-the exact 1/8, and prints the table of doc/dynamics.md. Needs gnuplot.
+the exact 1/8, and prints the table of doc/dynamics.md. Needs Matplotlib.
 
     tests/bench/knocking_bar_picture.py build/release/abut picture.svg
 """
@@ -13,6 +13,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+
+import pictures
 
 SCENE = (pathlib.Path(__file__).resolve().parents[2]
          / "prm/dynamics-periodic-bar.prm")
@@ -51,7 +53,7 @@ def summary(energies):
 def main():
     if len(sys.argv) != 3:
         raise SystemExit(__doc__)
-    plots, data = [], []
+    curves = {}
     print("| scheme | dt | after a step | largest above that | 10 periods | 100 "
           "periods | in a period | with dt/2 | force at 1.5 |\n"
           + "|---" * 9 + "|")
@@ -66,17 +68,23 @@ def main():
                   f"{energies[10 * stride]:.4f} | {energies[-1]:.4f} | "
                   f"{100 * change:+.3f} % | {100 * summary(half)[2]:+.3f} % | "
                   f"{force:.4f} |")
-            plots.append(f"'-' with lines lw 1.5 lc {len(plots) + 1} "
-                         f"dt {len(plots) // 8 + 1} title '{scheme}, {step}'")
-            data.append(list(enumerate(energies[::stride])))
-    script = ("set terminal svg size 640,480\n"
-              f"set output '{sys.argv[2]}'\n"
-              "set xlabel 'periods'\nset ylabel 'energy by 1/8'\n"
-              "set yrange [0.65:1.02]\nset key below maxcols 3\nplot "
-              + ", ".join(plots) + "\n")
-    for points in data:
-        script += "\n".join(f"{x:.9g} {y:.9g}" for x, y in points) + "\ne\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+            curves[f"{scheme}, $\\Delta t$ = {step}"] = energies[::stride]
+    draw(sys.argv[2], curves)
+
+
+def draw(picture, curves):
+    style = pictures.style
+    figure, [[axes]] = style.figure(style.PAGE, 0.5)
+    for i, (label, energies) in enumerate(curves.items()):
+        axes.plot(energies, label=label, **style.line_style(i))
+    axes.axhline(1.0, color=style.GREY, linewidth=0.8, linestyle="--")
+    axes.annotate("exact: 1/8", (PERIODS, 1.0), ha="right", va="bottom",
+                  color=style.GREY, fontsize=7)
+    axes.set_ylim(0.65, 1.03)
+    axes.set_xlabel("periods $t/T$")
+    axes.set_ylabel("energy / exact energy")
+    style.legend(axes)
+    pictures.save(figure, picture)
 
 
 if __name__ == "__main__":

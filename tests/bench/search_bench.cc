@@ -220,59 +220,6 @@ namespace
     }
   }
 
-  bool finds_candidates_only(const Program &p)
-  {
-    return std::strcmp(p.name, "nanoflann") == 0
-           || std::strcmp(p.name, "FCL") == 0
-           || std::strcmp(p.name, "Bullet") == 0;
-  }
-
-  /* Pictures by gnuplot, from the tables beside them. */
-  void draw(const Options &o)
-  {
-    const std::string file = o.output + "/search.gp";
-    std::ofstream gp(file);
-    gp << "set datafile separator ','\nset terminal svg size 900,420 "
-          "font 'sans,11' background 'white'\nset key outside\nset logscale "
-          "xy\n"
-       << "set output '" << o.output << "/search.svg'\n"
-       << "set multiplot layout 1,2\nset xlabel 'facets'\n"
-       << "set ylabel 'ns per node, build and query'\n";
-    for (const char *scene : {"flat", "graded"})
-    {
-      gp << "set title 'nearest facet, " << scene << "'\nplot ";
-      for (const Program &p : programs)
-        if (p.run != bench_all_pairs && !finds_candidates_only(p))
-          gp << "'< grep \"^" << scene << ",.*,nearest," << p.name << ",\" "
-             << o.output << "/search.csv' using 2:7 with linespoints title '"
-             << p.name << "', ";
-      gp << "\n";
-    }
-    gp << "unset multiplot\nset output '" << o.output
-       << "/search_bucket.svg'\nset multiplot layout 1,2\n"
-       << "set xlabel 'bucket size / median facet size'\n";
-    const char *const columns[2] = {"uniform", "adaptive"};
-    for (int c = 0; c < 2; ++c)
-    {
-      gp << "set title '" << columns[c] << " buckets'\nplot ";
-      for (int which = 0; which < 3; ++which)
-      {
-        const std::string scene = scene_names[which];
-        gp << "'" << o.output << "/search_bucket.csv' using (strcol(1) eq '"
-           << scene << "' && $2 > 0 ? $2 : NaN):" << c + 3
-           << " with linespoints lc " << which + 1 << " title '" << scene
-           << "', '' using (strcol(1) eq '" << scene
-           << "' && $2 == 0 ? 0.35 : NaN):" << c + 3
-           << " with points pt 7 ps 1.2 lc " << which + 1 << " notitle, ";
-      }
-      gp << "\n";
-    }
-    gp << "unset multiplot\n";
-    gp.close();
-    if (std::system(("gnuplot '" + file + "'").c_str()) != 0)
-      std::printf("no pictures: gnuplot failed on %s\n", file.c_str());
-  }
-
   bool parse(const int argc, char **argv, Options &o)
   {
     for (int i = 1; i < argc; i += 2)
@@ -327,6 +274,5 @@ main(int argc, char **argv)
   bucket_sizes(o, buckets);
   csv.close();
   buckets.close();
-  draw(o);
   return n_wrong == 0 ? 0 : 1;
 }

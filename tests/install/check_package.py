@@ -47,7 +47,7 @@ def check_fields(package):
     require(field("Version") == "0.1.0", field("Version"))
     require(field("Architecture") == run(
         "dpkg", "--print-architecture").stdout.strip(), "architecture")
-    for word in ("libdeal.ii-dev", "mpi-default-bin", "gnuplot-nox"):
+    for word in ("libdeal.ii-dev", "mpi-default-bin", "python3-matplotlib"):
         require(word in field("Recommends"), field("Recommends"))
     depends = {word.split()[0] for word in field("Depends").split(",")}
     print("Depends:", field("Depends"))

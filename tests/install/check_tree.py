@@ -28,6 +28,7 @@ def check_files(tree, suffix):
     expected = [
         "bin/abut", "include/abut/abut.h", "include/abut/user_law.h",
         "include/abut/dealii/load_plugin.h", "share/abut/prm/step-41.prm",
+        "share/abut/tools/abut_tools/draw.py",
         "share/doc/abut/README.md", "share/doc/abut/parameters.md",
         "share/doc/abut/examples/user-law/soft_law.c",
         "share/doc/abut/copyright"]
@@ -52,6 +53,10 @@ def check_program(tree, scratch):
              "--output", scratch / "string", cwd=scratch)
     summary = json.loads((scratch / "string/summary.json").read_text())
     require(summary["converged"] is True, "string.prm did not converge")
+    tree.run(tree.abut, "draw", scratch / "string", cwd=scratch)
+    require((scratch / "string/displacement.svg").is_file(), "no picture")
+    left = list((tree.prefix / "share/abut/tools").rglob("__pycache__"))
+    require(not left, f"compiled files are installed or left: {left}")
 
 
 def check_c(tree, scratch):

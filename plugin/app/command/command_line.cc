@@ -16,7 +16,8 @@ namespace abut::app
     const std::map<std::string, Command> commands = {
         {"run", Command::run},       {"check", Command::check},
         {"search", Command::search}, {"chart", Command::chart},
-        {"atlas", Command::atlas},   {"parameters", Command::parameters},
+        {"atlas", Command::atlas},   {"draw", Command::tool},
+        {"report", Command::tool},   {"parameters", Command::parameters},
         {"help", Command::help},     {"--help", Command::help},
         {"-h", Command::help},       {"--version", Command::version}};
 
@@ -25,6 +26,8 @@ namespace abut::app
 
   abut run SCENE.prm      solve a scene
   abut check SCENE.prm    read a scene, check its data and stop before solving
+  abut draw FOLDER        draw pictures of a run
+  abut report FOLDER      write a page about a run
   abut search SCENE.prm   search contact on two surfaces: pairs, time, memory
   abut chart FILE.prm     run a scene in many ways: error against time, work, ...
   abut atlas [FOLDER]     run the scenes of known failures and their cures
@@ -104,6 +107,25 @@ show with what the comments in the files expect, and write a page about it.
   --quiet         print only what is not as expected
 
 Exit code: 0 all as expected, 3 not all, 2 wrong input.
+)"},
+        {"draw", R"(abut draw FOLDER [options]
+
+Draw the pictures of a run from the files in its output folder, as SVG and PNG.
+It needs Python 3 with NumPy and Matplotlib.
+
+  --output DIR     folder of the pictures (default: FOLDER)
+  --width MM       width in mm, 84 (a column) or 174 (a page; default)
+  --picture NAME   draw this picture only; may be repeated
+  --quiet          print warnings and errors only
+
+ABUT_PYTHON in the environment names the Python interpreter; otherwise the first
+of python3 and /usr/bin/python3 that has both packages is used.
+
+Exit code: 0 drawn, 2 wrong input or no such Python, 3 nothing to draw.
+)"},
+        {"report", R"(abut report FOLDER [options]
+
+Write a page (HTML) about a run from the files in its output folder.
 )"},
         {"parameters", R"(abut parameters
 
@@ -208,7 +230,7 @@ Print the commands, or explain one.
       parse_file_command(words, result);
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
-    else if (words.size() > 1)
+    else if (words.size() > 1 && result.command != Command::tool)
       throw InputError("", "'" + words[0] + "' takes no '" + words[1] + "'.");
     return result;
   }

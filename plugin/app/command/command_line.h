@@ -17,6 +17,7 @@ namespace abut::app
       search,
       chart,
       atlas,
+      tool, /**< a program in Python, see tools.h */
       parameters,
       version,
       help

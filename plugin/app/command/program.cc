@@ -11,6 +11,7 @@
 #include "app/scenes/common_parameters.h"
 #include "app/scenes/loaded_scene.h"
 #include "command_line.h"
+#include "tools.h"
 
 #include <abut/version.h>
 
@@ -158,6 +159,10 @@ namespace abut::app
       report.set("converged", outcome == Outcome::converged);
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
+      // Of warnings about pictures the summary shall know, too.
+      if (options.pictures && is_root(communicator)
+          && !draw_run(report, options.output_folder))
+        report.write(options.output_folder);
       if (restart)
         restart->finish();
       report.print_summary();
@@ -178,7 +183,13 @@ namespace abut::app
       const RunLock lock(options.output_folder, communicator);
       StatusFile status(communicator, options.output_folder, line.words,
                         line.file);
-      collective(communicator, [&] { status.begin(); });
+      collective(communicator,
+                 [&]
+                 {
+                   status.begin();
+                   if (is_root(communicator))
+                     loaded.write_parameters(options.output_folder);
+                 });
       Report report(communicator, line.quiet);
       loaded.describe(report);
       try
@@ -287,15 +298,13 @@ namespace abut::app
       }
     }
 
-    /** For commands that run this program again for each scene. */
+    /** For commands that start other processes. */
     void require_one_rank(MPI_Comm communicator, const CommandLine &line)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
-        throw InputError(
-            "", std::string("'abut ")
-                    + (line.command == Command::chart ? "chart" : "atlas")
-                    + "' starts a process for each run, one after "
-                      "the other: start it without mpirun.");
+        throw InputError("",
+                         std::string("'abut ") + line.words.at(0)
+                             + "' runs on one rank: start it without mpirun.");
     }
 
     ExitCode chart_command(MPI_Comm communicator, const CommandLine &line)
@@ -334,6 +343,9 @@ namespace abut::app
       return chart_command(communicator, line);
     case Command::atlas:
       return atlas_command(communicator, line);
+    case Command::tool:
+      require_one_rank(communicator, line);
+      return run_tool(line.words);
     case Command::parameters:
       write_reference(text);
       write_chart_reference(text);

@@ -280,4 +280,26 @@ namespace abut::app
             << node.status << ',' << node.friction << ',' << node.slip << '\n';
     write_file(file, out.str());
   }
+
+  void write_closed_form(const std::filesystem::path &file,
+                         const std::vector<ContactLine> &lines,
+                         const dealii::Function<2> &pressure,
+                         const dealii::Function<2> &friction)
+  {
+    constexpr unsigned int n_parts = 8; ///< of the line between two nodes
+    std::ostringstream out;
+    out << "line,arc,x,y,pressure,friction\n" << std::setprecision(17);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (std::size_t k = 0; k + 1 < lines[i].size(); ++k)
+        for (unsigned int part = k == 0 ? 0 : 1; part <= n_parts; ++part)
+        {
+          const ContactLineNode &a = lines[i][k], &b = lines[i][k + 1];
+          const double t = double(part) / n_parts;
+          const dealii::Point<2> x = a.place + t * (b.place - a.place);
+          out << i + 1 << ',' << a.arc + t * (b.arc - a.arc) << ',' << x[0]
+              << ',' << x[1] << ',' << pressure.value(x) << ','
+              << friction.value(x) << '\n';
+        }
+    write_file(file, out.str());
+  }
 } // namespace abut::app

@@ -8,6 +8,7 @@
  */
 
 #include <abut/dealii/linear_algebra.h>
+#include <deal.II/base/function.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -70,6 +71,13 @@ namespace abut::app
    * file cannot be written. Not collective: for the rank that has them. */
   void write_contact_lines(const std::filesystem::path &file,
                            const std::vector<ContactLine> &lines);
+
+  /** Write tractions given by formulas as the table @p file with the columns
+   * line, arc, x, y, pressure, friction, at some points between nodes, too. */
+  void write_closed_form(const std::filesystem::path &file,
+                         const std::vector<ContactLine> &lines,
+                         const dealii::Function<2> &pressure,
+                         const dealii::Function<2> &friction);
 } // namespace abut::app
 
 #endif

@@ -181,6 +181,8 @@ namespace abut::app
       output.add_data_vector(fields.dof_handler, *values,
                              std::vector<std::string>(n_components, label),
                              interpretation);
+    for (const auto &[label, dof_handler, values] : fields.others)
+      output.add_data_vector(*dof_handler, *values, label);
     for (const auto &[label, values] : fields.cells)
       output.add_data_vector(*values, label, Output::type_cell_data);
     for (const auto &[values, postprocessor] : fields.derived)

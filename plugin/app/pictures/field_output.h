@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,10 @@ namespace abut::app
     std::vector<
         std::pair<const la::Vector *, const dealii::DataPostprocessor<dim> *>>
         derived = {};
+    /** Names and ghosted nodal values of scalar unknowns on the same mesh. */
+    std::vector<std::tuple<std::string, const dealii::DoFHandler<dim> *,
+                           const la::Vector *>>
+        others = {};
     /** Boundary ids: show these faces alone, not the cells. Empty: cells. */
     std::set<dealii::types::boundary_id> faces = {};
   };

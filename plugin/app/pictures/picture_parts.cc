@@ -9,13 +9,6 @@
 
 namespace abut::app
 {
-  const char *palette()
-  {
-    return "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', "
-           "3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', 7 '#addc30', "
-           "8 '#fde725')\n";
-  }
-
   std::string quoted(const std::string &text)
   {
     std::string result = "'";
@@ -35,99 +28,6 @@ namespace abut::app
         high = std::max(high, value);
       }
     return {low, high};
-  }
-
-  std::string full_title(const std::string &title, const Raster &raster)
-  {
-    if (std::isnan(raster.z))
-      return quoted(title);
-    std::ostringstream text;
-    text << title << ", plane z = " << raster.z;
-    return quoted(text.str());
-  }
-
-  namespace
-  {
-    /** The point with a value that is nearest to (i, j), at most @p reach
-     * away in each direction; (i, j) itself if there is none. */
-    std::pair<std::size_t, std::size_t>
-    nearest_value(const Raster &raster, const std::vector<double> &values,
-                  const std::size_t i, const std::size_t j,
-                  const std::size_t reach)
-    {
-      std::pair<std::size_t, std::size_t> best = {i, j};
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t b = j - std::min(j, reach);
-           b < std::min(raster.ny, j + reach + 1); ++b)
-        for (std::size_t a = i - std::min(i, reach);
-             a < std::min(raster.nx, i + reach + 1); ++a)
-        {
-          const double distance =
-              std::hypot(double(a) - double(i), double(b) - double(j));
-          if (distance < least && !std::isnan(values[b * raster.nx + a]))
-          {
-            least = distance;
-            best = {a, b};
-          }
-        }
-      return best;
-    }
-  } // namespace
-
-  std::string grid_block(const std::string &name, const Raster &raster,
-                         const std::vector<double> &values,
-                         const std::size_t stride, const std::size_t snap)
-  {
-    const auto indices = [stride](const std::size_t n)
-    {
-      std::vector<std::size_t> result;
-      for (std::size_t i = 0; i < n; i += stride)
-        result.push_back(i);
-      if (result.back() != n - 1)
-        result.push_back(n - 1);
-      return result;
-    };
-    std::ostringstream out;
-    out.precision(5);
-    out << '$' << name << " << EOD\n";
-    for (const std::size_t row : indices(raster.ny))
-    {
-      for (const std::size_t column : indices(raster.nx))
-      {
-        const auto [i, j] =
-            std::isnan(values[row * raster.nx + column])
-                ? nearest_value(raster, values, column, row, snap)
-                : std::pair(column, row);
-        const double value = values[j * raster.nx + i];
-        out << raster.x(i) << ' ' << raster.y(j) << ' ';
-        if (std::isnan(value))
-          out << "NaN\n";
-        else
-          out << value << '\n';
-      }
-      out << '\n';
-    }
-    out << "EOD\n";
-    return out.str();
-  }
-
-  std::string ranges(const Raster &raster)
-  {
-    std::ostringstream out;
-    out.precision(12);
-    out << "set xrange [" << raster.x_min << ':' << raster.x_max
-        << "]\nset yrange [" << raster.y_min << ':' << raster.y_max << "]\n";
-    return out.str();
-  }
-
-  unsigned int map_height(const Raster &raster, const unsigned int map_width,
-                          const unsigned int rest)
-  {
-    const double aspect =
-        (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
-    return rest
-           + static_cast<unsigned int>(map_width
-                                       * std::clamp(aspect, 0.15, 1.6));
   }
 
   double level_step(const double range)

@@ -47,10 +47,13 @@ namespace abut::app
       end_with(parent);
       if (folder[0] != 0 && chdir(folder) != 0)
         _exit(cannot_begin);
-      const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-      if (file < 0 || dup2(file, STDOUT_FILENO) < 0
-          || dup2(file, STDERR_FILENO) < 0)
-        _exit(cannot_begin);
+      if (log[0] != 0)
+      {
+        const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        if (file < 0 || dup2(file, STDOUT_FILENO) < 0
+            || dup2(file, STDERR_FILENO) < 0)
+          _exit(cannot_begin);
+      }
       if (limit > 0)
       {
         const rlimit processor = {limit, limit + 5}, core = {0, 0};

@@ -18,7 +18,8 @@ namespace abut::app
   {
     /** Working folder; empty: that of this process. */
     std::filesystem::path folder;
-    /** File for all that the child prints, relative to @ref folder. */
+    /** File for all that the child prints, relative to @ref folder; empty: it
+     * prints where this process does. */
     std::filesystem::path log;
     /** `NAME=value`; empty: that of this process. */
     std::vector<std::string> environment;

@@ -103,7 +103,8 @@ namespace abut::app
     scene.declare(prm);
     prm.enter_subsection("Output");
     prm.declare_entry("Pictures", "false", Patterns::Bool(),
-                      "Draw pictures (SVG) with gnuplot.");
+                      "Draw pictures (SVG and PNG) at the end, as `abut "
+                      "draw FOLDER` does; it needs Python with Matplotlib.");
     prm.declare_entry("Report", "false", Patterns::Bool(),
                       "Write a page about the run, report.html, as `abut "
                       "report` does; also where the scene has an error.");

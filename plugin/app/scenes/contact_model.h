@@ -383,8 +383,6 @@ namespace abut::app
     {
     }
 
-    virtual void draw() = 0;
-
     /** What `abut check` tells; there are rows if there is contact. */
     virtual void report_check() = 0;
 

@@ -806,8 +806,6 @@ namespace abut::app
     }
     steps.write(state.communicator, state.options.output_folder);
     model.finish();
-    if (state.options.pictures && !state.results.empty())
-      model.draw();
     if (!missed_target.empty())
       report.warn(missed_target);
     const bool has_digits = largest_load == 0. || largest_load > least_load

@@ -3,11 +3,13 @@
 
 #include "app/input/dealii_message.h"
 #include "app/input/input_error.h"
+#include "app/report/json.h"
 #include "app/restart/disk.h"
 #include "common_parameters.h"
 
 #include <deal.II/base/exceptions.h>
 
+#include <sstream>
 #include <utility>
 
 namespace abut::app
@@ -111,6 +113,31 @@ namespace abut::app
       report.set("dimension", dimension);
     for (const std::string &line : not_used)
       report.not_used(line);
+  }
+
+  void LoadedScene::write_parameters(const std::filesystem::path &folder) const
+  {
+    std::ostringstream out;
+    JsonWriter json(out);
+    json.begin();
+    json.value("scene", file.name());
+    json.value("file", file.path());
+    json.value("kind", std::string(kind()));
+    json.value("dimension", static_cast<std::int64_t>(dimension));
+    json.begin("parameters");
+    const auto given = file.values();
+    for (const DeclaredParameter &parameter : declared)
+    {
+      json.begin(parameter.path);
+      json.value("value", parameter.value);
+      json.value("default", parameter.default_value);
+      json.value("given", given.count(parameter.path) > 0);
+      json.value("origin", file.origin(parameter.path));
+      json.end();
+    }
+    json.end();
+    json.end();
+    write_file(folder / "parameters.json", out.str());
   }
 
   RunIdentity LoadedScene::identity() const

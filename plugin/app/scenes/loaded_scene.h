@@ -7,6 +7,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ namespace abut::app
 
     /** Write what is known before the solve. */
     void describe(Report &report) const;
+
+    /** Write the scene with all its parameters as `parameters.json`: value and
+     * default of each, and where the value is from. Not collective. */
+    void write_parameters(const std::filesystem::path &folder) const;
 
     /** What a run must have in common with one that it goes on with: program,
      * parameters, and content of the files that these name. */

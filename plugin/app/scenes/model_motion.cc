@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "model_motion.h"
 
+#include "app/input/collective.h"
 #include "app/input/short_number.h"
-#include "app/pictures/time_picture.h"
+#include "app/restart/disk.h"
 
 #include <abut/dealii/coded.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace abut::app
 {
@@ -426,40 +429,36 @@ namespace abut::app
     }
   }
 
-  template <int dim> void ModelMotion<dim>::draw() const
+  template <int dim> void ModelMotion<dim>::write_table() const
   {
-    std::vector<double> times;
-    TimePanel energies{"energy",
-                       {{"kinetic", {}},
-                        {"strain", {}},
-                        {"contact", {}},
-                        {"dissipated", {}},
-                        {"external work", {}},
-                        {"balance", {}}}};
-    TimePanel forces{"force of contact", {}};
-    for (std::string side : words.sides)
-    {
-      std::replace(side.begin(), side.end(), '_', ' ');
-      forces.curves.push_back({side, {}});
-    }
+    std::ostringstream out;
+    out << "time,kinetic_energy,strain_energy,contact_energy,"
+           "dissipated_energy,external_work,energy_balance";
+    for (const std::string &side : words.sides)
+      out << ',' << side << "_force";
+    out << '\n' << std::setprecision(17);
     for (const Record &record : records)
     {
       const abut_time_energy &e = record.bodies.energy;
-      times.push_back(record.bodies.time);
-      const double values[] = {e.kinetic,    e.strain,        e.contact,
-                               e.dissipated, e.external_work, record.balance()};
-      for (std::size_t i = 0; i < energies.curves.size(); ++i)
-        energies.curves[i].second.push_back(values[i]);
-      for (std::size_t p = 0; p < forces.curves.size(); ++p)
+      out << record.bodies.time << ',' << e.kinetic << ',' << e.strain << ','
+          << e.contact << ',' << e.dissipated << ',' << e.external_work << ','
+          << record.balance();
+      for (const std::vector<double> &force : record.force)
       {
         double square = 0.;
-        for (const double f : record.force[p])
+        for (const double f : force)
           square += f * f;
-        forces.curves[p].second.push_back(std::sqrt(square));
+        out << ',' << std::sqrt(square);
       }
+      out << '\n';
     }
-    draw_over_time(run.report, run.options.output_folder, "motion", times,
-                   {energies, forces}, "Energies and forces");
+    collective(
+        run.communicator,
+        [&]
+        {
+          if (dealii::Utilities::MPI::this_mpi_process(run.communicator) == 0)
+            write_file(run.options.output_folder / "motion.csv", out.str());
+        });
   }
 
   template class ModelMotion<2>;

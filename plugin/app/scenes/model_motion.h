@@ -127,8 +127,9 @@ namespace abut::app
     /** Results into the summary. Collective. */
     void report() const;
 
-    /** Energies and forces over time. */
-    void draw() const;
+    /** Energies and forces of all steps, that of the start first, as
+     * `motion.csv`. Collective. */
+    void write_table() const;
 
     /** What a checkpoint keeps. */
     template <class Archive> void serialize(Archive &archive, unsigned int)

@@ -60,6 +60,17 @@ namespace abut::app
                       "Distance within which the surfaces look for each other; "
                       "0: half a facet, or more when they move more, or when "
                       "nothing nearer stops bodies without supports.");
+    prm.declare_entry("Closed form", "", Patterns::Anything(),
+                      "Name of a solution from theory, such as `Hertz`, that "
+                      "pictures of a plane scene show beside the computed "
+                      "tractions.");
+    prm.declare_entry("Closed form of pressure", "", Patterns::Anything(),
+                      "Its pressure at the points of the secondary surface, "
+                      "force per area: a formula in x, y, t and the forces of "
+                      "the run on the secondary surface, Fx, Fy in all and Qx, "
+                      "Qy of friction. Empty: none.");
+    prm.declare_entry("Closed form of friction", "", Patterns::Anything(),
+                      "Its traction along the surface, likewise.");
     prm.leave_subsection();
   }
 
@@ -75,6 +86,9 @@ namespace abut::app
     gap = prm.get("Initial gap");
     friction = prm.get("Friction");
     friction_cap = prm.get("Largest friction");
+    closed_form = prm.get("Closed form");
+    closed_pressure = prm.get("Closed form of pressure");
+    closed_friction = prm.get("Closed form of friction");
     mesh_gap = prm.get_bool("Mesh gap");
     tied = prm.get_bool("Tied");
     reach = prm.get_double("Reach");

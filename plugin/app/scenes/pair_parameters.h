@@ -16,6 +16,8 @@ namespace abut::app
     unsigned int obstacle = 0; ///< number of the rigid obstacle; 0: none
     std::string gap;
     std::string friction, friction_cap; ///< formulas; cap empty: none
+    /** Name and formulas of tractions known from theory, for pictures. */
+    std::string closed_form, closed_pressure, closed_friction;
     bool mesh_gap = true;
     bool tied = false;
     double reach = 0.;

@@ -3,7 +3,8 @@
 import pathlib
 import sys
 
-from . import draw_curves, draw_membrane, draw_point_mass, style
+from . import (draw_bodies, draw_curves, draw_membrane, draw_point_mass,
+               draw_search, style)
 from .errors import InputError, Words, warn
 from .run_folder import RunFolder
 
@@ -15,6 +16,11 @@ def pictures(run, width):
         return
     if run.kind == "obstacle":
         yield from draw_membrane.pictures(run, width)
+    elif run.kind == "solid":
+        yield from draw_bodies.pictures(run, width)
+    elif run.kind == "search":
+        yield from draw_search.pictures(run, width)
+        return
     for name, draw in (("motion", draw_curves.over_time),
                        ("convergence", draw_curves.convergence)):
         figure = draw(run, width)

@@ -83,9 +83,13 @@ def _draw_errors(axes, dofs, errors):
                 or dofs[part[0]] == dofs[part[-1]]:
             continue
         slope = fitted_slope(dofs[part], values[part])
-        axes.annotate(f"slope {slope:.2f}", (dofs[part[-1]], values[part[-1]]),
-                      textcoords="offset points", xytext=(0, 5), fontsize=7,
-                      ha="right", color=style.COLOURS[i % 7])
+        low, high = sorted((dofs[part[0]], dofs[part[-1]]))
+        start, width = (low * high) ** 0.5, (high / low) ** 0.4
+        style.slope_triangle(axes, start / width ** 0.5,
+                             0.55 * values[part].min()
+                             * width ** max(0.0, -slope), slope, width,
+                             f"{slope:.2f}")
+        break
 
 
 def fitted_slope(x, y):

@@ -29,11 +29,6 @@ def pictures(run, width):
         yield "active-set", _states(mesh, title, width)
 
 
-def _triangulation(mesh):
-    return Triangulation(mesh.points[:, 0], mesh.points[:, 1],
-                         geometry.triangles(mesh))
-
-
 def _aspect(mesh):
     return float(numpy.clip(numpy.ptp(mesh.points[:, 1])
                             / numpy.ptp(mesh.points[:, 0]), 0.15, 1.6))
@@ -41,17 +36,22 @@ def _aspect(mesh):
 
 def _displacement(mesh, title, width):
     """The membrane from the side, and a map with level lines."""
-    mesh_of = _triangulation(mesh)
-    values = mesh.fields["displacement"].astype(float)
+    points, values, corners = geometry.fine_triangles(
+        mesh, mesh.points[:, :2], mesh.fields["displacement"].astype(float))
+    mesh_of = Triangulation(points[:, 0], points[:, 1], corners)
     aspect = _aspect(mesh)
-    figure = style.pyplot.figure(figsize=(
-        width * style.MM, width * style.MM * (0.08 + 0.36 * max(aspect, 0.6))))
-    parts = figure.add_gridspec(1, 2, width_ratios=(1.25, 1))
+    narrow = width < 1.2 * style.COLUMN
+    figure = style.pyplot.figure(figsize=(width * style.MM, width * style.MM * (
+        0.1 + 0.7 + 0.75 * aspect if narrow else
+        0.08 + 0.36 * max(aspect, 0.6))))
+    parts = (figure.add_gridspec(2, 1, height_ratios=(0.7, 0.75 * aspect))
+             if narrow else figure.add_gridspec(1, 2, width_ratios=(1.25, 1)))
+    figure.get_layout_engine().set(wspace=0.14)
     side = figure.add_subplot(parts[0], projection="3d")
     x, y = (numpy.linspace(part.min(), part.max(), 61)
             for part in mesh.points.T[:2])
     grid = numpy.meshgrid(x, y)
-    surface = geometry.sample(mesh.points, mesh_of.triangles, values, x, y)
+    surface = geometry.sample(points, corners, values, x, y)
     norm = colors.Normalize(values.min(), values.max())
     side.plot_surface(*grid, surface, rstride=1, cstride=1, linewidth=0.15,
                       edgecolor="#ffffff30", cmap=style.FIELD_MAP, norm=norm,
@@ -74,20 +74,9 @@ def _displacement(mesh, title, width):
                        alpha=0.7)
     bar = figure.colorbar(field, ax=top, aspect=30)
     bar.set_label(label("displacement"))
-    _map_axes(top, title)
+    style.plane_map(top)
+    top.set_title(title)
     return figure
-
-
-def _map_axes(axes, title):
-    axes.set_aspect("equal")
-    axes.margins(0)
-    axes.grid(False)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(style.ticker.MaxNLocator(5))
-    axes.set_xlabel("$x$ [length]")
-    axes.set_ylabel("$y$ [length]")
-    if title:
-        axes.set_title(title)
 
 
 def _states(mesh, title, width):
@@ -115,7 +104,7 @@ def _states(mesh, title, width):
                          for state in present],
                 loc="lower center", bbox_to_anchor=(0.5, 1.0),
                 ncol=len(present))
-    _map_axes(axes, "")
+    style.plane_map(axes)
     if title:
         axes.set_xlabel(f"$x$ [length], {title}")
     return figure

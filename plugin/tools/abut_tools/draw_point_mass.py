@@ -73,7 +73,7 @@ class OneMass:
         u = ((self.f - spring * self.b * self.g0)
              / (self.k + spring * self.b ** 2))
         u = numpy.where(self.gap(self.free) >= 0, self.free, u)
-        return u, -spring * numpy.minimum(self.gap(u), 0.0)
+        return u, (self.k * u - self.f) / self.b
 
 
 def pictures(run, width):
@@ -115,8 +115,7 @@ def _energy(mass, sweep, width):
     style.named(*axes.plot(minima, mass.penalized(minima, sweep["penalty"]),
                            "o", color=style.BLACK, label="minima"), "minima")
     axes.set_xlabel("displacement $u$ [length]")
-    axes.set_ylabel(r"energy $\frac{1}{2}ku^2 - fu + \frac{1}{2}\epsilon"
-                    r"\min(g, 0)^2$")
+    axes.set_ylabel("energy [force·length]")
     style.legend(axes)
     return figure
 
@@ -161,7 +160,8 @@ def _lagrangian(mass, width):
     levels = numpy.linspace(saddle - reach, saddle + reach, 27)
     lines = axes.contour(u, multipliers, values, levels, cmap=style.FIELD_MAP,
                          linewidths=0.8)
-    bar = figure.colorbar(lines, ax=axes, aspect=30)
+    bar = figure.colorbar(lines, ax=axes, aspect=30,
+                          ticks=style.ticker.MaxNLocator(6))
     bar.set_label(r"Lagrangian $L(u, \lambda)$ [force·length]")
     bar.outline.set_linewidth(0)
     line = numpy.array([mass.low, mass.high])

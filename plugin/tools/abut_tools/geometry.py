@@ -45,6 +45,53 @@ def triangles(mesh):
     return numpy.concatenate(parts) if parts else numpy.zeros((0, 3), int)
 
 
+def fine_triangles(mesh, points, values, most=20000):
+    """Points, values and triangles that follow fields of quadrilaterals, which
+    are not linear on triangles: coarse cells are cut into parts, not more than
+    `most` in all."""
+    parts = max(1, min(8, int((most / max(1, len(mesh.cells))) ** 0.5)))
+    line = numpy.linspace(0, 1, parts + 1)
+    s, r = (grid.ravel() for grid in numpy.meshgrid(line, line))
+    first = (numpy.arange(parts) + (parts + 1) * numpy.arange(parts)[:, None])
+    first = first.ravel()
+    pattern = numpy.concatenate([
+        numpy.stack([first, first + 1, first + parts + 2], axis=1),
+        numpy.stack([first, first + parts + 2, first + parts + 1], axis=1)])
+    all_points, all_values, all_triangles, start = [], [], [], 0
+    for kind, cells in kinds(mesh):
+        if kind in QUAD and parts > 1:
+            weights = _shape_functions(s, r, cells.shape[1])
+            all_points.append(numpy.einsum("qn,cnd->cqd", weights,
+                                           points[cells]).reshape(-1, 2))
+            all_values.append((values[cells] @ weights.T).ravel())
+            corners = (pattern[None] + len(s) * numpy.arange(len(cells))
+                       [:, None, None]).reshape(-1, 3)
+        else:
+            corners = triangles(type(mesh)(mesh.points, list(cells),
+                                           [kind] * len(cells), {}, {}))
+            all_points.append(points)
+            all_values.append(values)
+        all_triangles.append(corners + start)
+        start += len(all_points[-1])
+    return (numpy.concatenate(all_points), numpy.concatenate(all_values),
+            numpy.concatenate(all_triangles))
+
+
+def _shape_functions(s, r, n_nodes):
+    """At points of the unit square, of quadrilaterals of 4 or 9 nodes."""
+    if n_nodes == 4:
+        return numpy.stack([(1 - s) * (1 - r), s * (1 - r), s * r, (1 - s) * r],
+                           axis=1)
+
+    def of(x):
+        return ((1 - x) * (1 - 2 * x), x * (2 * x - 1), 4 * x * (1 - x))
+
+    a, b = of(s), of(r)
+    return numpy.stack([a[i] * b[j] for i, j in (
+        (0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (1, 2), (2, 1), (0, 2), (2, 2))],
+        axis=1)
+
+
 def edges(mesh):
     """Edges of a plane mesh, each as its two or three points in a row; of
     edges with two the middle is the second end."""

@@ -41,7 +41,7 @@ LABELS = {
     "matvecs": ("matrix-vector products", "", ""),
     "penalty": (r"penalty", r"\epsilon", ""),
     "bucket_size": ("bucket size / median facet size", "", ""),
-    "ns_per_node": ("time to find all candidates per node", "", "ns"),
+    "ns_per_node": ("search time per node", "", "ns"),
 }
 
 

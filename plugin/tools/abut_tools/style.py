@@ -4,6 +4,7 @@ apart, markers and dashes beside them, fonts of 8 pt, and widths of a column or
 a page. Equal data give equal files."""
 import itertools
 import math
+import re
 
 import matplotlib
 import numpy
@@ -56,7 +57,10 @@ def line_style(number):
 
 
 def figure(width, aspect=0.62, rows=1, columns=1, **more):
-    """Figure and axes, `width` mm wide, each row `aspect` of it high."""
+    """Figure and axes, `width` mm wide, each row `aspect` of it high; in a
+    column rows are higher, as letters are not smaller there."""
+    if width < 1.2 * COLUMN:
+        aspect = max(aspect, 0.5 if rows > 1 else 0.72)
     return pyplot.subplots(rows, columns, squeeze=False, figsize=(
         width * MM, width * aspect * rows * MM), **more)
 
@@ -75,6 +79,8 @@ def drawn_data(of_figure):
     for artist in of_figure.findobj(lambda each: each.get_gid()):
         if hasattr(artist, "get_xydata"):
             result[artist.get_gid()] = numpy.asarray(artist.get_xydata())
+        elif hasattr(artist, "drawn_values"):
+            result[artist.get_gid()] = artist.drawn_values
         elif hasattr(artist, "get_segments"):
             result[artist.get_gid()] = artist.get_segments()
         elif hasattr(artist, "get_array"):
@@ -90,10 +96,23 @@ def legend(axes, **more):
     if not handles:
         return None
     width = axes.get_figure().get_size_inches()[0] / MM
-    letters = max(len(label) for label in labels) + 8
-    columns = max(1, min(len(labels), int(width / (1.5 * letters))))
+    longest = max(len(re.sub(r"\\[a-z]+|[$\\{}^_]", "", label))
+                  for label in labels)
+    columns = max(1, min(len(labels), int((width - 15) / (1.3 * longest + 14))))
     return axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0),
                        ncol=columns, borderaxespad=0.3, **more)
+
+
+def legend_above(of_figure, handles, columns, title=None):
+    """One legend for all axes, above them; there is room left for it."""
+    rows = math.ceil(len(handles) / columns) + (1 if title else 0)
+    if rows == 0:
+        return
+    of_figure.legend(handles=handles, loc="upper center", ncol=columns,
+                     bbox_to_anchor=(0.5, 1.0), borderaxespad=0.2, title=title,
+                     title_fontsize=8)
+    of_figure.get_layout_engine().set(rect=(0, 0, 1, 1 - (
+        4.2 * rows + 1) * MM / of_figure.get_size_inches()[1]))
 
 
 def logarithmic(axis):
@@ -142,6 +161,17 @@ def slope_triangle(axes, x, y, slope, width=2.0, text=None):
     axes.annotate(text or f"{slope:g}", (x * width, y * width ** (slope / 2)),
                   textcoords="offset points", xytext=(3, 0), fontsize=7,
                   va="center", color=GREY)
+
+
+def plane_map(axes):
+    """Axes of a map in space: equal scales, no grid, few ticks."""
+    axes.set_aspect("equal")
+    axes.margins(0)
+    axes.grid(False)
+    axes.set_xlabel("$x$ [length]")
+    axes.set_ylabel("$y$ [length]")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(ticker.MaxNLocator(5))
 
 
 def letters(all_axes):

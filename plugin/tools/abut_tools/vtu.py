@@ -36,9 +36,8 @@ def read_mesh(path):
         files = dict.fromkeys(path.parent / piece.get("Source")
                               for piece in root.iter("Piece"))
     pieces = [piece for file in files for piece in _pieces(file)]
-    if not pieces:
-        raise InputError(f"{path} has no points.")
-    return _joined(pieces)
+    return _joined(pieces or [Mesh(numpy.zeros((0, 3)), [], numpy.zeros(0), {},
+                                   {})])
 
 
 def _read(path):

@@ -304,8 +304,12 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::write_fields()
   {
-    if (!parameters.fields || !this->is_written(parameters.every))
-      return;
+    if (parameters.fields && this->is_written(parameters.every))
+      write_present();
+  }
+
+  template <int dim> void MembraneModel<dim>::write_present()
+  {
     SectionTimes::Scope scope(run.report.times, "output");
     const la::Vector displacement = membrane.ghosted(run.u);
     const la::Vector p =
@@ -346,11 +350,12 @@ namespace abut::app
       report.write_nodal_values();
     if (parameters.linear_solves > 0)
       report.compare_with_linear_solves(membrane);
-  }
-
-  template <int dim> void MembraneModel<dim>::draw()
-  {
-    MembraneReport<dim>(*this).draw();
+    if (run.results.empty() || !(parameters.fields || run.options.pictures))
+      return;
+    if (!parameters.fields)
+      write_present();
+    if (motion)
+      motion->write_table();
   }
 
   template <int dim> void MembraneModel<dim>::report_check()

@@ -85,6 +85,7 @@ namespace abut::app
 
     void resume(std::vector<la::Vector> fields) override;
     void write_fields() override;
+    void write_present();
 
     NarrowNumbers written_numbers() const override
     {
@@ -93,7 +94,6 @@ namespace abut::app
     std::string save_state() const override;
     void load_state(const std::string &bytes) override;
     void finish() override;
-    void draw() override;
     void report_check() override;
     void report_result(bool converged) override;
     void report_model() override;

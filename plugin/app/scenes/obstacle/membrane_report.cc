@@ -2,9 +2,7 @@
 // What a run of the scene `obstacle` leaves behind.
 #include "membrane_report.h"
 #include "app/pictures/nodal_table.h"
-#include "app/pictures/pictures.h"
 #include "app/scenes/diagnosis.h"
-#include "app/scenes/estimate_curves.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
 #include "app/scenes/nodal_forces.h"
@@ -18,12 +16,6 @@ namespace abut::app
 
   namespace
   {
-    // In the order of draw_status()'s colours: two quiet ones first.
-    const std::vector<StatusWord> status_words = {{-1, "no constraint"},
-                                                  {0, "open"},
-                                                  {1, "contact"},
-                                                  {2, "contact above"}};
-
     double median(std::vector<double> values)
     {
       std::sort(values.begin(), values.end());
@@ -110,47 +102,6 @@ namespace abut::app
                     + " s on all levels, one linear solve "
                     + std::to_string(reference) + " s, ratio "
                     + std::to_string(mine / reference));
-  }
-
-  template <int dim> void MembraneReport<dim>::draw() const
-  {
-    SectionTimes::Scope scope(report.times, "output");
-    const la::Vector displacement = membrane.ghosted(u);
-    const la::Vector status =
-        membrane.ghosted_field(contact.results().status());
-    const Raster raster =
-        sample_raster(membrane.mapping, membrane.dof_handler,
-                      {{&displacement, false}, {&status, true}}, 160);
-    draw_solution(report, run.options.output_folder, "displacement", raster, 0,
-                  "Displacement");
-    draw_status(report, run.options.output_folder, "active-set", raster, 1,
-                status_words, "Contact");
-    if (model.motion)
-    {
-      model.motion->draw();
-      return;
-    }
-
-    std::vector<Curve> errors;
-    Curve l2{"L2 error", {}}, h1{"H1 error", {}}, energy{"energy error", {}},
-        count{"active-set steps", {}};
-    for (const ContactResult &level : levels)
-    {
-      const double n = level.dofs;
-      if (level.errors)
-      {
-        l2.points.push_back({n, level.errors->l2});
-        h1.points.push_back({n, level.errors->h1_seminorm});
-      }
-      if (!std::isnan(parameters.exact_energy))
-        energy.points.push_back(
-            {n, std::abs(level.energy - parameters.exact_energy)});
-      count.points.push_back({n, double(level.steps)});
-    }
-    errors = estimate_curves(levels, parameters.refinement);
-    errors.insert(errors.begin(), {l2, h1, energy});
-    draw_convergence(report, run.options.output_folder, "convergence", errors,
-                     {count}, "Convergence");
   }
 
   template <int dim>

@@ -22,7 +22,6 @@ namespace abut::app
      * which is assembled anew for each. */
     void compare_with_linear_solves(Membrane<dim> &problem) const;
 
-    void draw() const;
     void result(bool converged) const;
 
     /** What was modelled, and what could have been left out. */

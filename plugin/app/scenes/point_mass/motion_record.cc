@@ -2,7 +2,6 @@
 #include "motion_record.h"
 
 #include "app/input/short_number.h"
-#include "app/pictures/time_picture.h"
 #include "app/scenes/time_parameters.h"
 
 #include <algorithm>
@@ -187,34 +186,5 @@ namespace abut::app
            + short_number(now.time, 6)
            + "  E = " + short_number(now.kinetic + now.strain + now.contact, 6)
            + "  F = " + short_number(now.force);
-  }
-
-  void MotionRecord::draw(Report &report,
-                          const std::filesystem::path &folder) const
-  {
-    std::vector<double> times, kinetic, strain, contact, dissipated, work,
-        balances, force;
-    for (const Entry &e : entries)
-    {
-      times.push_back(e.time);
-      kinetic.push_back(e.kinetic);
-      strain.push_back(e.strain);
-      contact.push_back(e.contact);
-      dissipated.push_back(e.dissipated);
-      work.push_back(e.work);
-      balances.push_back(e.kinetic + e.strain + e.contact + e.dissipated
-                         - e.work);
-      force.push_back(e.force);
-    }
-    draw_over_time(report, folder, "motion", times,
-                   {{"energy",
-                     {{"kinetic", kinetic},
-                      {"strain", strain},
-                      {"contact", contact},
-                      {"dissipated", dissipated},
-                      {"external work", work},
-                      {"balance", balances}}},
-                    {"contact force", {{"force", force}}}},
-                   std::string("Motion, ") + scheme.name);
   }
 } // namespace abut::app

@@ -31,9 +31,6 @@ namespace abut::app
     /** A line of progress after step @p k of @p n. */
     std::string line(unsigned int k, unsigned int n) const;
 
-    /** Energies and contact force over time, `motion.svg`. */
-    void draw(Report &report, const std::filesystem::path &folder) const;
-
   private:
     struct Entry
     {

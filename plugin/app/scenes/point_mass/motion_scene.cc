@@ -558,8 +558,6 @@ namespace abut::app
       fill_summary(report, motion, record);
       if (dealii::Utilities::MPI::this_mpi_process(options.communicator) == 0)
         write_file(options.output_folder / "masses.csv", table(motion));
-      if (options.pictures)
-        record.draw(report, options.output_folder);
       return done ? Outcome::converged : Outcome::unusable;
     }
   } // namespace

@@ -11,7 +11,6 @@
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/method_effects.h"
 #include "point_mass_model.h"
-#include "point_mass_pictures.h"
 
 #include <abut/dealii/method_parameters.h>
 #include <abut/dealii/number_pattern.h>
@@ -383,14 +382,9 @@ namespace abut::app
                   abut_reason_text(solution.reason)));
 
       SectionTimes::Scope scope(report.times, "output");
-      if (Utilities::MPI::this_mpi_process(options.communicator) == 0)
-      {
-        if (!penalties.empty())
-          write_sweep(options);
-        if (options.pictures)
-          draw_point_mass(model, method.options, solution, penalties,
-                          options.output_folder, report);
-      }
+      if (Utilities::MPI::this_mpi_process(options.communicator) == 0
+          && !penalties.empty())
+        write_sweep(options);
       return solution.reason == ABUT_REASON_CONVERGED ? Outcome::converged
                                                       : Outcome::unusable;
     }

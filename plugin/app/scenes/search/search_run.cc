@@ -5,11 +5,13 @@
 #include "app/input/input_error.h"
 #include "app/pictures/surface_output.h"
 #include "app/report/processor_time.h"
+#include "app/restart/disk.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace abut::app
 {
@@ -224,9 +226,6 @@ namespace abut::app
       return;
     Side &other = primary_side();
     SweepHeading heading;
-    const Report::Value title = report.get("title");
-    if (const auto *text = std::get_if<std::string>(&title))
-      heading.title = *text;
     heading.n_nodes = secondary.arrays.n_nodes();
     heading.n_facets = other.arrays.n_facets();
     std::vector<SweepPoint> points;
@@ -241,24 +240,27 @@ namespace abut::app
     }
     SectionTimes::Scope scope(report.times, "output");
     write_sweep(options.output_folder, points, heading);
-    if (options.pictures)
-      draw_sweep(report, options.output_folder, points, heading);
   }
 
   template <int dim> void SearchRun::write_fields()
   {
-    if (!parameters.fields)
+    if (!parameters.fields && !options.pictures)
       return;
     SectionTimes::Scope scope(report.times, "output");
+    write_candidates();
     const auto n = static_cast<std::size_t>(view.n_nodes);
-    std::vector<double> gap(n), distance(n), status(n), facet(n);
+    std::vector<double> gap(n), distance(n), status(n), facet(n), node(n);
+    std::vector<std::vector<double>> to_foot(dim, std::vector<double>(n));
     for (std::size_t i = 0; i < n; ++i)
     {
       const abut_contact &contact = view.contact[i];
       gap[i] = contact.gap;
       distance[i] = contact.distance;
       facet[i] = contact.facet;
+      node[i] = static_cast<double>(i);
       status[i] = contact.facet < 0 ? 0 : contact.gap < 0 ? 2 : 1;
+      for (unsigned int d = 0; d < dim && contact.facet >= 0; ++d)
+        to_foot[d][i] = -contact.gap * contact.normal[d];
     }
     const auto ids = [](const SurfaceArrays &surface)
     { return std::vector<double>(surface.group.begin(), surface.group.end()); };
@@ -266,13 +268,39 @@ namespace abut::app
     fields.nodal = {{"gap", gap},
                     {"distance", distance},
                     {"status", status},
-                    {"facet", facet}};
+                    {"facet", facet},
+                    {"node", node}};
+    for (unsigned int d = 0; d < dim; ++d)
+      fields.nodal.emplace_back(std::string("to_projection_") + "xyz"[d],
+                                to_foot[d]);
     fields.facets = {{"boundary_id", ids(secondary.arrays)}};
     write_surface<dim>(options.output_folder / "secondary.vtu",
                        secondary.arrays, fields);
     if (!parameters.search.detection.self_contact)
       write_surface<dim>(options.output_folder / "primary.vtu", primary.arrays,
                          {{}, {{"boundary_id", ids(primary.arrays)}}});
+  }
+
+  void SearchRun::write_candidates()
+  {
+    const abut_detection_options &chosen = parameters.search.detection;
+    const auto search = shim::create_search(
+        context.get(), primary_side().surface.get(), chosen.search);
+    const auto pairs = shim::create_pairs(context.get());
+    shim::check(context.get(),
+                abut_search_set_reach(search.get(), view.reach,
+                                      chosen.search.relative_reach, 0.));
+    shim::check(
+        context.get(),
+        abut_search_nodes(search.get(), secondary.surface.get(), pairs.get()));
+    abut_pairs_view list;
+    shim::check(context.get(), abut_pairs_get(pairs.get(), &list));
+    std::ostringstream out;
+    out << "node,facet\n";
+    for (std::int32_t q = 0; q < list.n_queries; ++q)
+      for (std::int64_t k = list.start[q]; k < list.start[q + 1]; ++k)
+        out << q << ',' << list.facet[k] << '\n';
+    write_file(options.output_folder / "candidates.csv", out.str());
   }
 
   template void SearchRun::check<2>();

@@ -61,6 +61,7 @@ namespace abut::app
     void report_model();
     void sweep();
     template <int dim> void write_fields();
+    void write_candidates();
 
     const SearchSceneParameters &parameters;
     const RunOptions &options;

@@ -55,10 +55,9 @@ namespace abut::app
             const SweepParameters &parameters,
             const std::function<void(const SweepPoint &)> &measured);
 
-  /** What the table and the picture say beside the points. */
+  /** Sizes of the surfaces that are searched. */
   struct SweepHeading
   {
-    std::string title;
     double n_nodes = 0;
     double n_facets = 0;
   };
@@ -74,11 +73,6 @@ namespace abut::app
   /** A line of it. */
   void print_sweep_point(Report &report, const SweepPoint &point,
                          const SweepHeading &heading);
-
-  /** `search.svg`: time over bucket size, automatic choices marked. */
-  bool draw_sweep(Report &report, const std::filesystem::path &folder,
-                  const std::vector<SweepPoint> &points,
-                  const SweepHeading &heading);
 } // namespace abut::app
 
 #endif

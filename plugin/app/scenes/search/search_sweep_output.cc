@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "app/input/short_number.h"
-#include "app/pictures/gnuplot.h"
 #include "app/restart/disk.h"
 #include "search_sweep.h"
 
 #include <algorithm>
-#include <array>
 #include <iomanip>
 #include <sstream>
 
@@ -24,53 +22,6 @@ namespace abut::app
     bool is_automatic(const SweepPoint &point)
     {
       return point.algorithm != ABUT_SEARCH_ALL_PAIRS && point.bucket_size == 0;
-    }
-
-    /** Points of one algorithm with a bucket size: {bucket size, ns}. */
-    std::vector<std::vector<double>>
-    curve(const std::vector<SweepPoint> &points,
-          const abut_search_algorithm algorithm, const bool automatic,
-          const SweepHeading &heading)
-    {
-      std::vector<std::vector<double>> rows;
-      for (const SweepPoint &point : points)
-        if (point.algorithm == algorithm && is_automatic(point) == automatic)
-          rows.push_back({automatic ? point.bucket_in_use : point.bucket_size,
-                          per_node(point, heading)});
-      return rows;
-    }
-
-    /** Smallest and largest bucket size of the picture, then smallest and
-     * largest time. */
-    std::array<double, 4> ranges(const std::vector<SweepPoint> &points,
-                                 const SweepHeading &heading)
-    {
-      std::array<double, 4> r = {{1e300, 0, 1e300, 0}};
-      for (const SweepPoint &point : points)
-      {
-        const double size =
-            is_automatic(point) ? point.bucket_in_use : point.bucket_size;
-        const double time = per_node(point, heading);
-        r = {{size > 0 ? std::min(r[0], size) : r[0], std::max(r[1], size),
-              std::min(r[2], time), std::max(r[3], time)}};
-      }
-      return {{r[0] / 1.3, r[1] * 1.3, r[2] / 1.6, r[3] * 1.6}};
-    }
-
-    std::string escaped(const std::string &text)
-    {
-      std::string result;
-      for (const char c : text)
-        result += c == '\'' ? std::string("''") : std::string(1, c);
-      return result;
-    }
-
-    std::string thousands(const double number)
-    {
-      std::string digits = short_number(number, 15);
-      for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), " ");
-      return digits;
     }
   } // namespace
 
@@ -128,65 +79,5 @@ namespace abut::app
                          3)
          << (raised ? "  raised to the search radius" : "");
     report.progress(line.str());
-  }
-
-  bool draw_sweep(Report &report, const std::filesystem::path &folder,
-                  const std::vector<SweepPoint> &points,
-                  const SweepHeading &heading)
-  {
-    if (points.empty())
-      return false;
-    const auto [low, high, fastest, slowest] = ranges(points, heading);
-    if (!(low < high && fastest < slowest))
-      return false;
-    std::ostringstream script, plot;
-    script << gnuplot_header("search", 760, 480);
-    plot << "plot ";
-    const char *separator = "";
-    for (int a = ABUT_SEARCH_N_ALGORITHMS - 1; a >= 0; --a)
-    {
-      const auto algorithm = static_cast<abut_search_algorithm>(a);
-      auto rows = curve(points, algorithm, false, heading);
-      const auto chosen = curve(points, algorithm, true, heading);
-      if (algorithm == ABUT_SEARCH_ALL_PAIRS && !rows.empty())
-        rows = {{low, rows[0][1]}, {high, rows[0][1]}};
-      const std::string name = "curve" + std::to_string(a);
-      const std::string style = std::to_string(ABUT_SEARCH_N_ALGORITHMS - a);
-      if (!rows.empty())
-      {
-        script << gnuplot_data(name, rows);
-        plot << separator << '$' << name << " using 1:2 with "
-             << (algorithm == ABUT_SEARCH_ALL_PAIRS ? "lines" : "linespoints")
-             << " lt " << style << " title '" << abut_search_name(algorithm)
-             << '\'';
-        separator = ", ";
-      }
-      if (!chosen.empty())
-      {
-        script << gnuplot_data("chosen" + std::to_string(a), chosen);
-        plot << separator << "$chosen" << a
-             << " using 1:2 with points pt 6 ps 1.8 lw 2.5 lc "
-                "rgb '#000000' notitle, $chosen"
-             << a
-             << " using 1:2:(sprintf('%.0f ns', $2)) with labels boxed offset "
-                "0,1.1 "
-                "notitle";
-        separator = ", ";
-      }
-    }
-    plot << separator
-         << "NaN with points pt 6 ps 1.8 lw 2.5 lc rgb '#000000' title "
-            "'automatic choice'\n";
-    script << "set title '" << escaped(heading.title)
-           << (heading.title.empty() ? "" : ": ") << thousands(heading.n_nodes)
-           << " nodes, " << thousands(heading.n_facets)
-           << " facets' font ',15'\n"
-           << "set logscale xy\nset xrange [" << low << ':' << high
-           << "]\nset yrange [" << fastest << ':' << slowest << "]\n"
-           << "set xlabel 'bucket size / median facet size'\n"
-           << "set ylabel 'time to find all candidates, ns per node'\n"
-           << "set key outside top center horizontal\n"
-           << plot.str();
-    return draw_picture(report, folder, "search", script.str());
   }
 } // namespace abut::app

@@ -136,7 +136,21 @@ namespace abut::app
       { return values.is_true(section + "/Tied"); };
       const std::string tied = "the pair is tied: it is glued together as the "
                                "meshes lie.";
+      const auto without_formulas =
+          [](const SceneValues &values, const std::string &section)
+      {
+        return !values.is_set(section + "/Closed form of pressure")
+               && !values.is_set(section + "/Closed form of friction");
+      };
+      const auto in_space = [](const SceneValues &values, const std::string &)
+      { return values("Dimension") == "3"; };
+      const std::string plane = "it is drawn along lines of contact, which "
+                                "scenes in 3 dimensions do not have.";
       return {{"Solid/Obstacles", Weight::data, unused_obstacle},
+              of_pairs("Closed form", without_formulas,
+                       "the pair has no formula of it."),
+              of_pairs("Closed form of pressure", in_space, plane),
+              of_pairs("Closed form of friction", in_space, plane),
               of_pairs("Initial gap", is_tied, tied),
               of_pairs("Mesh gap", is_tied, tied),
               of_pairs("Friction", is_tied, tied),

@@ -127,12 +127,12 @@ namespace abut::app
     void load_state(const std::string &bytes) override;
     void finish() override
     {
-      if (parameters.nodal_values && !run.results.empty())
+      if (run.results.empty())
+        return;
+      if (parameters.nodal_values)
         output.write_nodal_values();
-    }
-    void draw() override
-    {
-      output.draw();
+      if (parameters.fields || run.options.pictures)
+        output.finish();
     }
     void report_check() override;
     void report_result(bool converged) override;

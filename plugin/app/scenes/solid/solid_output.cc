@@ -1,40 +1,61 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Fields, contact boundaries and pictures of the scene `solid`.
+// Fields and contact boundaries of the scene `solid`.
 #include "app/input/collective.h"
+#include "app/physics/scalar_field.h"
 #include "app/physics/stress_output.h"
-#include "app/pictures/body_pictures.h"
 #include "app/pictures/contact_output.h"
-#include "app/pictures/pictures.h"
-#include "app/scenes/estimate_curves.h"
 #include "app/scenes/nodal_forces.h"
 #include "solid_model.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <regex>
+#include <sstream>
 
 namespace abut::app
 {
+  namespace MPI = dealii::Utilities::MPI;
+
   namespace
   {
-    /** Errors over unknowns of the meshes of the first load step. */
-    std::vector<Curve> error_curves(const std::vector<ContactResult> &states,
-                                    const RefinementParameters &refinement)
+    /** Tractions that theory has for the forces of a pair. */
+    struct ClosedForm
     {
-      Curve l2{"L2 error", {}};
-      Curve energy{"error in energy norm", {}};
-      for (const ContactResult &state : states)
-        if (state.load_step == states.front().load_step)
+      ClosedForm(const PairParameters &pair, const PairResult<2> &result,
+                 const double time)
+          : pressure(formula(pair.closed_pressure, result),
+                     pair.parameter("Closed form of pressure")),
+            friction(formula(pair.closed_friction, result),
+                     pair.parameter("Closed form of friction"))
+      {
+        pressure.set_time(time);
+        friction.set_time(time);
+      }
+
+      Expression<2> pressure, friction;
+
+    private:
+      /** With numbers in place of the forces. */
+      static std::string formula(std::string text, const PairResult<2> &result)
+      {
+        for (const auto &[name, value] :
+             {std::make_pair("Fx", result.secondary_force[0]),
+              std::make_pair("Fy", result.secondary_force[1]),
+              std::make_pair("Qx", result.secondary_friction[0]),
+              std::make_pair("Qy", result.secondary_friction[1])})
         {
-          const double n = double(state.dofs);
-          if (state.errors)
-          {
-            l2.points.emplace_back(n, state.errors->l2);
-            energy.points.emplace_back(n, *state.errors->energy);
-          }
+          std::ostringstream number;
+          number << '(' << std::setprecision(17) << value << ')';
+          text = std::regex_replace(
+              text, std::regex(std::string("\\b") + name + "\\b"),
+              number.str());
         }
-      std::vector<Curve> curves = estimate_curves(states, refinement);
-      curves.insert(curves.begin(), {l2, energy});
-      return curves;
-    }
+        return text.empty() ? "0" : text;
+      }
+    };
   } // namespace
 
   template <int dim>
@@ -57,8 +78,12 @@ namespace abut::app
 
   template <int dim> void SolidOutput<dim>::write_fields()
   {
-    if (!model.parameters.fields)
-      return;
+    if (model.parameters.fields)
+      write_present();
+  }
+
+  template <int dim> void SolidOutput<dim>::write_present()
+  {
     SectionTimes::Scope scope(model.run.report.times, "output");
     const la::Vector displacement = model.elasticity.ghosted(model.run.u);
     dealii::Vector<float> body(model.triangulation.n_active_cells());
@@ -73,6 +98,12 @@ namespace abut::app
                                        displacement, model.data.materials);
     const StressPostprocessor<dim> stresses(materials);
     fields.derived = {{&displacement, &stresses}};
+    dealii::DoFHandler<dim> linear(model.triangulation);
+    distribute_linear(model.elasticity.dof_handler, linear);
+    const std::vector<la::Vector> means =
+        nodal_stress(model.elasticity.mapping, model.elasticity.dof_handler,
+                     displacement, model.data.materials, linear);
+    fields.others = {{"mean_von_mises_stress", &linear, &means.back()}};
     if (model.run.present.estimate)
       fields.cells.emplace_back("squared_error_estimate",
                                 &model.run.squared_estimate);
@@ -128,44 +159,43 @@ namespace abut::app
     contact_series.write(time(), fields);
     if constexpr (dim == 2)
     {
-      const std::vector<PressureCurve> curves = pressure_curves(contact_values);
-      collective(
-          model.run.communicator,
-          [&]
-          {
-            if (dealii::Utilities::MPI::this_mpi_process(model.run.communicator)
-                > 0)
-              return;
-            for (std::size_t i = 0; i < curves.size(); ++i)
-              write_contact_lines(
-                  model.run.options.output_folder
-                      / ("pair_" + std::to_string(i + 1) + ".csv"),
-                  curves[i].lines);
-          });
+      std::size_t number = 0;
+      for (const ContactPair<dim> &pair : model.pairs->pairs())
+      {
+        const std::vector<ContactLine> lines = lines_of(pair, contact_values);
+        ++number;
+        collective(model.run.communicator,
+                   [&]
+                   {
+                     if (MPI::this_mpi_process(model.run.communicator) == 0)
+                       write_contact_lines(
+                           model.run.options.output_folder
+                               / ("pair_" + std::to_string(number) + ".csv"),
+                           lines);
+                   });
+      }
     }
   }
 
   template <int dim>
-  std::vector<PressureCurve>
-  SolidOutput<dim>::pressure_curves(const ContactFields &fields) const
+  std::vector<ContactLine>
+  SolidOutput<dim>::lines_of(const ContactPair<dim> &pair,
+                             const ContactFields &fields) const
   {
-    std::vector<PressureCurve> curves;
     if constexpr (dim == 2)
     {
-      const bool is_split = model.tells_friction_apart();
-      for (const ContactPair<dim> &pair : model.pairs->pairs())
-        curves.push_back(
-            {pair.name,
-             contact_lines(model.elasticity.mapping,
-                           model.elasticity.dof_handler, pair.secondary,
-                           {fields.traction, &fields.row_gap, &fields.status,
-                            pair.friction != nullptr ? &fields.slip : nullptr,
-                            is_split ? &fields.normal : nullptr,
-                            is_split && pair.friction != nullptr ? &fields.along
-                                                                 : nullptr}),
-             pair.friction != nullptr});
+      const bool is_split = model.tells_friction_apart(),
+                 has_friction = pair.friction != nullptr;
+      return contact_lines(
+          model.elasticity.mapping, model.elasticity.dof_handler,
+          pair.secondary,
+          {fields.traction, &fields.row_gap, &fields.status,
+           has_friction ? &fields.slip : nullptr,
+           is_split ? &fields.normal : nullptr,
+           is_split && has_friction ? &fields.along : nullptr});
     }
-    return curves;
+    else
+      return {};
   }
 
   template <int dim> void SolidOutput<dim>::write_nodal_values() const
@@ -192,33 +222,72 @@ namespace abut::app
                       elasticity.mapping, elasticity.dof_handler, columns);
   }
 
-  template <int dim> void SolidOutput<dim>::draw() const
+  template <int dim> void SolidOutput<dim>::finish()
   {
+    if (!model.parameters.fields)
+      write_present();
     SectionTimes::Scope scope(model.run.report.times, "output");
+    write_obstacle_surfaces();
+    write_closed_forms();
+    if (model.motion)
+      model.motion->write_table();
+  }
+
+  template <int dim> void SolidOutput<dim>::write_obstacle_surfaces() const
+  {
+    const auto obstacles = model.pairs->moved_obstacles();
+    if (obstacles.empty())
+      return;
+    const MPI_Comm communicator = model.run.communicator;
+    dealii::BoundingBox<dim> box =
+        dealii::GridTools::compute_bounding_box(model.triangulation);
+    const double motion = model.run.u.linfty_norm();
+    auto &[low, high] = box.get_boundary_points();
+    double size = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      low[d] = MPI::min(low[d], communicator) - motion;
+      high[d] = MPI::max(high[d], communicator) + motion;
+      size = std::max(size, high[d] - low[d]);
+    }
+    box.extend(0.15 * size);
+    collective(communicator,
+               [&]
+               {
+                 if (MPI::this_mpi_process(communicator) == 0)
+                   write_obstacles(model.run.options.output_folder
+                                       / "obstacles.vtu",
+                                   obstacles, box);
+               });
+  }
+
+  template <int dim> void SolidOutput<dim>::write_closed_forms() const
+  {
     if constexpr (dim == 2)
     {
-      std::vector<DrawnObstacle> obstacles;
-      for (const auto &obstacle : model.pairs->moved_obstacles())
-        obstacles.push_back({obstacle.shape, obstacle.motion});
-      draw_bodies(model.run.report, model.run.options.output_folder, "bodies",
-                  model.elasticity.mapping, model.elasticity.dof_handler,
-                  model.elasticity.ghosted(model.run.u), model.data.materials,
-                  pressure_curves(model.contact_fields()), obstacles,
-                  "Deformed bodies");
+      const auto results = model.run.contact.results().pairs();
+      for (std::size_t i = 0; i < results.size(); ++i)
+      {
+        const PairParameters &pair = model.parameters.pairs.at(i);
+        if (pair.closed_pressure.empty() && pair.closed_friction.empty())
+          continue;
+        const std::string key =
+            "pair_" + std::to_string(i + 1) + "_closed_form";
+        model.run.report.set(key, pair.closed_form.empty() ? "closed form"
+                                                           : pair.closed_form);
+        const std::vector<ContactLine> lines =
+            lines_of(model.pairs->pairs()[i], model.contact_fields());
+        const ClosedForm form(pair, results[i], model.run.present.time);
+        collective(model.run.communicator,
+                   [&]
+                   {
+                     if (MPI::this_mpi_process(model.run.communicator) == 0)
+                       write_closed_form(model.run.options.output_folder
+                                             / (key + ".csv"),
+                                         lines, form.pressure, form.friction);
+                   });
+      }
     }
-    if (model.motion)
-    {
-      model.motion->draw();
-      return;
-    }
-    Curve count{"linear systems", {}};
-    for (const ContactResult &state : model.run.results)
-      if (state.load_step == model.run.results.front().load_step)
-        count.points.emplace_back(double(state.dofs), double(state.steps));
-    draw_convergence(
-        model.run.report, model.run.options.output_folder, "convergence",
-        error_curves(model.run.results, model.parameters.refinement), {count},
-        "Convergence");
   }
 
   template class SolidOutput<2>;

@@ -2,7 +2,7 @@
 #ifndef ABUT_APP_SOLID_OUTPUT_H
 #define ABUT_APP_SOLID_OUTPUT_H
 
-#include "app/pictures/body_pictures.h"
+#include "app/pictures/contact_line.h"
 #include "app/pictures/field_output.h"
 
 #include <abut/dealii/linear_algebra.h>
@@ -26,7 +26,7 @@ namespace abut::app
     la::Vector slip;     ///< of the step, on the secondary side
   };
 
-  /** Fields, contact boundaries and pictures of the scene `solid`. */
+  /** Fields and contact boundaries of the scene `solid`. */
   template <int dim> class SolidOutput
   {
   public:
@@ -45,8 +45,9 @@ namespace abut::app
       return numbers;
     }
 
-    /** Pictures of the present solution. Collective. */
-    void draw() const;
+    /** Files of the end, from which pictures are drawn: fields of the present
+     * solution unless they are there, and surfaces of obstacles. Collective. */
+    void finish();
 
     /** Displacement and forces at all nodes of the present mesh as nodal.csv.
      * Collective. */
@@ -60,9 +61,13 @@ namespace abut::app
 
   private:
     double time() const;
+    void write_present();
     void write_contact(const la::Vector &displacement);
-    std::vector<PressureCurve>
-    pressure_curves(const ContactFields &fields) const;
+    void write_obstacle_surfaces() const;
+    void write_closed_forms() const;
+    /** Values along the contact boundary of a pair, on rank 0. */
+    std::vector<ContactLine> lines_of(const ContactPair<dim> &pair,
+                                      const ContactFields &fields) const;
 
     const SolidModel<dim> &model;
     FieldSeries series, contact_series;

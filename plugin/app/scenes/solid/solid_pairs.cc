@@ -308,8 +308,7 @@ namespace abut::app
   }
 
   template <int dim>
-  std::vector<typename SolidPairs<dim>::MovedObstacle>
-  SolidPairs<dim>::moved_obstacles() const
+  std::vector<PlacedObstacle<dim>> SolidPairs<dim>::moved_obstacles() const
   {
     const auto place = [](const RigidObstacle<dim> &obstacle)
     {
@@ -318,7 +317,7 @@ namespace abut::app
         result[d] = obstacle.view().translation[d];
       return result;
     };
-    std::vector<MovedObstacle> result;
+    std::vector<PlacedObstacle<dim>> result;
     for (std::size_t o = 0; o < obstacles.size(); ++o)
     {
       const auto &obstacle = obstacles[o];

@@ -5,6 +5,7 @@
 #include "app/input/boundary_expressions.h"
 #include "app/input/expression.h"
 #include "app/mesh/bodies.h"
+#include "app/pictures/obstacle_output.h"
 #include "solid_parameters.h"
 
 #include <abut/dealii/contact_pair.h>
@@ -110,15 +111,8 @@ namespace abut::app
     std::set<dealii::types::boundary_id> secondary() const;
     std::set<dealii::types::boundary_id> surfaces() const;
 
-    /** An obstacle, and how far its motion has brought it since time 0. */
-    struct MovedObstacle
-    {
-      std::shared_ptr<const RigidObstacle<dim>> shape;
-      dealii::Tensor<1, dim> motion;
-    };
-
     /** All obstacles at the present time. */
-    std::vector<MovedObstacle> moved_obstacles() const;
+    std::vector<PlacedObstacle<dim>> moved_obstacles() const;
 
     /** Both sides of the pairs between bodies. */
     std::vector<ContactSides> sides() const;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools.h"
+
+#include "app/process/child_process.h"
+#include "app/restart/disk.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+namespace abut::app
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /** Exit code of the tools where Python lacks packages. */
+    constexpr int lacks_packages = 120;
+
+    /** `share/abut/tools` of the nearest folder above the program: of a build,
+     * and of an installed tree. */
+    fs::path tools_folder()
+    {
+      const fs::path program = fs::read_symlink("/proc/self/exe");
+      for (fs::path folder = program.parent_path();;
+           folder = folder.parent_path())
+      {
+        const fs::path tools = folder / "share/abut/tools/abut_tools";
+        if (fs::exists(tools))
+          return tools;
+        if (folder == folder.root_path())
+          throw InputError("", "the folder share/abut/tools was not found "
+                               "beside "
+                                   + program.string()
+                                   + ": install the program again.");
+      }
+    }
+
+    /** Start a tool with the first Python that has the packages. */
+    ChildResult start(const std::vector<std::string> &words,
+                      const fs::path &log)
+    {
+      const char *const named = std::getenv("ABUT_PYTHON");
+      const std::vector<std::string> candidates =
+          named != nullptr && named[0] != 0
+              ? std::vector<std::string>{named}
+              : std::vector<std::string>{"python3", "/usr/bin/python3"};
+      ChildOptions options;
+      options.log = log;
+      for (const std::string &python : candidates)
+      {
+        // No compiled files, which would stay behind a package.
+        std::vector<std::string> command = {python, "-B",
+                                            tools_folder().string()};
+        command.insert(command.end(), words.begin(), words.end());
+        const ChildResult result = run_child(command, options);
+        if (result.ended != ChildResult::Ended::not_found
+            && !(result.ended == ChildResult::Ended::exited
+                 && result.code == lacks_packages))
+          return result;
+      }
+      throw InputError("", "'abut " + words.at(0)
+                               + "' needs Python 3 with NumPy and "
+                                 "Matplotlib; "
+                               + (candidates.size() == 1
+                                      ? "ABUT_PYTHON = '" + candidates[0] + "'"
+                                      : std::string("python3"))
+                               + " does not have them. On Debian: apt install "
+                                 "python3-numpy python3-matplotlib");
+    }
+
+    std::string without(std::string text, const std::string &beginning)
+    {
+      if (text.compare(0, beginning.size(), beginning) == 0)
+        text.erase(0, beginning.size());
+      return text;
+    }
+  } // namespace
+
+  ExitCode run_tool(const std::vector<std::string> &words)
+  {
+    std::cout << std::flush;
+    const ChildResult result = start(words, {});
+    return result.ended == ChildResult::Ended::exited
+               ? static_cast<ExitCode>(result.code)
+               : ExitCode::internal_error;
+  }
+
+  bool draw_run(Report &report, const fs::path &folder)
+  {
+    const fs::path log = folder / "draw.log";
+    bool is_drawn = true;
+    const auto warn = [&](const std::string &text)
+    {
+      report.warn(text);
+      is_drawn = false;
+    };
+    try
+    {
+      const bool well = start({"draw", folder.string(), "--quiet"}, log).well();
+      std::istringstream said(read_from_disk(log));
+      std::string last;
+      for (std::string line; std::getline(said, line); last = line)
+        if (well)
+          warn(without(line, "abut: warning: "));
+      if (well)
+        fs::remove(log);
+      else
+        warn("the pictures were not drawn: " + without(last, "abut: error: ")
+             + " (see " + log.string() + ")");
+    }
+    catch (const std::exception &error)
+    {
+      warn("the pictures were not drawn: " + std::string(error.what()));
+    }
+    return is_drawn;
+  }
+} // namespace abut::app

@@ -1,0 +1,349 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of elastic bodies: plane ones deformed with mesh, obstacles, states
+of contact and tractions along the contact lines; in space the surfaces."""
+import numpy
+from matplotlib import cm, collections, colors, lines, patches
+from matplotlib.tri import Triangulation
+
+from . import geometry, style
+from .labels import label
+from .vtu import read_mesh
+
+MOST_EDGES = 8000   # more are not seen
+MOST_FACES = 20000  # in space
+STATES = ((1, "sticks", style.STICK), (2, "slips", style.SLIP),
+          (0, "open", style.GREY))
+STRESS = "mean_von_mises_stress"
+
+
+def pictures(run, width):
+    mesh = run.last_field("fields")
+    if mesh is None:
+        return
+    contact = run.last_field("contact")
+    obstacles = read_mesh(run.path / "obstacles.vtu") \
+        if run.has("obstacles.vtu") else None
+    if obstacles is not None and not len(obstacles.points):
+        obstacles = None  # none is near the bodies
+    if run.input.get("dimension") == 3:
+        yield "bodies", _in_space(mesh, contact, obstacles, width)
+    else:
+        yield "bodies", _plane(run, mesh, contact, obstacles, width)
+        curves = _traction_curves(run)
+        if curves:
+            yield "tractions", _tractions(run, curves, width)
+
+
+def _stress(mesh):
+    return mesh.fields[STRESS if STRESS in mesh.fields
+                       else "von_mises_stress"].astype(float)
+
+
+def _range(values):
+    low, high = float(values.min()), float(values.max())
+    if not high - low > 1e-5 * abs(high):  # all but the same everywhere
+        low -= 0.5 * abs(low)
+        high = high + 0.5 * abs(high) if high > low else low + 1.0
+    return colors.Normalize(low, high)
+
+
+def _moved(mesh, factor):
+    """The points of a deformed mesh, the displacement `factor` times."""
+    return (mesh.points + factor * mesh.fields["displacement"]
+            if "displacement" in mesh.fields else mesh.points)
+
+
+# Plane bodies.
+
+def _plane(run, mesh, contact, obstacles, width):
+    # A small zone of contact is drawn to scale: larger displacements would push
+    # curved bodies into each other.
+    size = numpy.ptp(_moved(mesh, 1.0), axis=0).max()
+    factor = (1.0 if _contact_zone(contact, size) is not None else
+              geometry.exaggeration(mesh, mesh.fields["displacement"]))
+    points = _moved(mesh, factor)[:, :2]
+    surfaces = _obstacle_lines(obstacles, factor)
+    low, high = _frame(points, surfaces)
+    zoom = _contact_zone(contact, size)
+    n = 1 if zoom is None else 2
+    aspect = float(numpy.clip((high - low)[1] / (high - low)[0], 0.2, 1.5))
+    if zoom is None and aspect > 0.7:
+        width = min(width, 130 / aspect)
+    figure, axes = style.figure(
+        width, (aspect if zoom is None else
+                max(0.45, min(0.5 * aspect, 0.75))) * 0.9 + 0.08,
+        columns=n, gridspec_kw={"width_ratios": [1] * n})
+    axes = axes[0]
+    norm = _range(_stress(mesh))
+    for axis in axes:
+        field = _draw_bodies(axis, mesh, points, norm)
+        axis.add_collection(style.named(collections.LineCollection(
+            surfaces, colors=style.BLACK, linewidths=1.8, zorder=3),
+            "obstacles" if axis is axes[0] else None))
+        states = _draw_states(axis, contact, factor)
+        style.plane_map(axis)
+    style.named(field, "von_mises_stress")
+    axes[0].set_xlim(low[0], high[0])
+    axes[0].set_ylim(low[1], high[1])
+    if zoom is not None:
+        (x0, y0), (x1, y1) = zoom
+        axes[1].set_xlim(x0, x1)
+        axes[1].set_ylim(y0, y1)
+        axes[0].add_patch(patches.Rectangle((x0, y0), x1 - x0, y1 - y0,
+                                            fill=False, linewidth=0.6,
+                                            edgecolor=style.BLACK, zorder=4))
+        axes[1].set_ylabel("")
+    bar = figure.colorbar(field, ax=list(axes), aspect=30, pad=0.02)
+    bar.set_label(label("von_mises_stress"))
+    handles = [lines.Line2D([], [], color=colour, linewidth=2.4, label=text)
+               for _, text, colour in states]
+    if len(_inside(surfaces, low, high)):
+        handles.append(lines.Line2D([], [], color=style.BLACK, linewidth=1.8,
+                                    label="obstacle"))
+    title = (f"displacement drawn {factor:g} times" if factor > 1 else
+             "displacement drawn to scale")
+    style.legend_above(figure, handles, max(1, len(handles)), title)
+    style.letters(axes)
+    return figure
+
+
+def _inside(surfaces, low, high):
+    """The lines with an end in a frame."""
+    if not len(surfaces):
+        return surfaces
+    return surfaces[((surfaces >= low) & (surfaces <= high)).all(axis=2)
+                    .any(axis=1)]
+
+
+def _frame(points, surfaces):
+    """Corners of a frame around the bodies and what is near of obstacles."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = (high - low).max()
+    near = _inside(surfaces, low - 0.5 * size, high + 0.5 * size)
+    if not len(near):
+        return low - 0.02 * size, high + 0.02 * size
+    ends = near.reshape(-1, 2)
+    # Of an obstacle that goes on only its nearest point.
+    apart = numpy.maximum(numpy.maximum(low - ends, ends - high), 0.0)
+    nearest = ends[(apart ** 2).sum(axis=1).argmin()]
+    strip = 0.08 * size
+    return (numpy.minimum(low, nearest) - strip,
+            numpy.maximum(high, nearest) + strip)
+
+
+def _draw_bodies(axes, mesh, points, norm):
+    """The stress, the mesh and the outline; returns the stress."""
+    places, values, corners = geometry.fine_triangles(mesh, points,
+                                                      _stress(mesh))
+    field = axes.tripcolor(
+        Triangulation(places[:, 0], places[:, 1], corners), values,
+        shading="gouraud", cmap=style.FIELD_MAP, norm=norm, rasterized=True)
+    edges = geometry.edges(mesh)
+    axes.add_collection(collections.LineCollection(
+        points[edges], colors="#ffffff90", linewidths=0.2,
+        rasterized=len(edges) > MOST_EDGES))
+    axes.add_collection(style.named(collections.LineCollection(
+        points[geometry.outline(mesh)], colors="#303030", linewidths=0.6),
+        "outline"))
+    return field
+
+
+def _obstacle_lines(obstacles, factor):
+    """Lines of the surfaces, moved as far as displacements are drawn."""
+    if obstacles is None:
+        return numpy.zeros((0, 2, 2))
+    motion = numpy.column_stack([obstacles.fields[f"motion_{axis}"]
+                                 for axis in "xy"])
+    points = obstacles.points[:, :2] + (factor - 1) * motion
+    return points[numpy.array(obstacles.cells)]
+
+
+def _segments(contact, factor):
+    """Lines of the contact boundaries between nodes with constraints, and the
+    larger of the states of their ends."""
+    points = _moved(contact, factor)[:, :2]
+    pairs = numpy.array([pair for cell in contact.cells
+                         for pair in zip(cell, cell[1:])]).reshape(-1, 2)
+    state = numpy.round(contact.fields["status"]).astype(int)
+    has_row = (state[pairs] >= 0).all(axis=1) \
+        & ~numpy.isnan(contact.fields["gap"][pairs]).any(axis=1)
+    return points[pairs[has_row]], state[pairs[has_row]]
+
+
+def _draw_states(axes, contact, factor):
+    """Lines of the secondary surfaces by state; returns what is there."""
+    if contact is None:
+        return []
+    segments, states = _segments(contact, factor)
+    found = []
+    for number, text, colour in STATES:
+        # Each half of a line has the state of its end.
+        chosen = []
+        for end in (0, 1):
+            some = segments[states[:, end] == number]
+            chosen.append(numpy.stack([some[:, end], some.mean(axis=1)], axis=1))
+        chosen = numpy.concatenate(chosen)
+        if not len(chosen):
+            continue
+        axes.add_collection(style.named(collections.LineCollection(
+            chosen, colors=colour, linewidths=2.4 if number else 1.2,
+            zorder=2.5), f"state_{number}"))
+        found.append((number, text, colour))
+    if not any(number == 2 for number, _, _ in found):
+        found = [(number, "contact" if number == 1 else text, colour)
+                 for number, text, colour in found]
+    return found
+
+
+def _contact_zone(contact, size):
+    """Corners of a square around what is in contact, if it is small."""
+    if contact is None:
+        return None
+    closed = contact.fields["status"] > 0.5
+    if not closed.any():
+        return None
+    points = _moved(contact, 1.0)[closed][:, :2]
+    low, high = points.min(axis=0), points.max(axis=0)
+    extent = (high - low).max()
+    if not 0 < extent < 0.2 * size:
+        return None
+    centre = (low + high) / 2
+    return centre - 1.3 * extent, centre + 1.3 * extent
+
+
+# Tractions along contact lines.
+
+def _traction_curves(run):
+    """Of each pair its number, table, closed form and the name of this."""
+    curves = []
+    for number, table in run.pairs().items():
+        key = f"pair_{number}_closed_form"
+        if len(table["arc"]):
+            curves.append((number, table, run.table(f"{key}.csv"),
+                           run.summary.get(key)))
+    return curves
+
+
+def _broken(table, name):
+    """Arc and values, interrupted between lines."""
+    ends = numpy.flatnonzero(numpy.diff(table["line"])) + 1
+    return (numpy.insert(table["arc"], ends, numpy.nan),
+            numpy.insert(table[name], ends, numpy.nan))
+
+
+def _pressed_range(curves):
+    """Lengths with pressure, and as much again on both sides."""
+    largest = max(table["pressure"].max() for _, table, _, _ in curves)
+    end = max(table["arc"].max() for _, table, _, _ in curves)
+    pressed = numpy.concatenate([
+        table["arc"][table["pressure"] > 1e-6 * largest]
+        for _, table, _, _ in curves])
+    if not len(pressed) or not numpy.ptp(pressed) > 0:
+        return 0.0, end
+    size = numpy.ptp(pressed)
+    return max(0.0, pressed.min() - size), min(end, pressed.max() + size)
+
+
+def _tractions(run, curves, width):
+    figure, [[axes]] = style.figure(width, 0.45)
+    low, high = _pressed_range(curves)
+    shown = sum(((table["arc"] >= low) & (table["arc"] <= high)).sum()
+                for _, table, _, _ in curves)
+    marker = {} if shown < 150 else {"marker": ""}
+    several = len(curves) > 1
+    for i, (number, table, closed, name) in enumerate(curves):
+        of = f", pair {number}" if several else ""
+        has_friction = abs(table["friction"]).max() > 0
+        if closed is not None:
+            for j, part in enumerate(("pressure", "friction")):
+                if abs(closed[part]).max() > 0:
+                    style.named(*axes.plot(
+                        *_broken(closed, part), color=style.BLACK,
+                        linestyle="-" if j == 0 else "--", linewidth=0.9,
+                        zorder=3, label=f"{part}, {name}{of}"),
+                        f"closed_{part}_{number}")
+        computed = {**style.curve_style(2 * i), **marker}
+        if closed is not None and not marker:
+            computed["linestyle"] = ""
+        style.named(*axes.plot(*_broken(table, "pressure"), **computed,
+                               label=f"pressure{of}"), f"pressure_{number}")
+        if has_friction:
+            computed = {**style.curve_style(2 * i + 1), **marker}
+            if closed is not None and not marker:
+                computed["linestyle"] = ""
+            style.named(*axes.plot(*_broken(table, "friction"), **computed,
+                                   label=f"tangential traction{of}"),
+                        f"friction_{number}")
+    axes.set_xlim(low, high)
+    axes.set_xlabel(label("arc"))
+    axes.set_ylabel("traction [force/area]")
+    style.legend(axes)
+    return figure
+
+
+# Bodies in space.
+
+def _in_space(mesh, contact, obstacles, width):
+    factor = geometry.exaggeration(mesh, mesh.fields["displacement"])
+    n = 1 if contact is None else 2
+    figure = style.pyplot.figure(figsize=(width * style.MM,
+                                          width * 0.52 * style.MM))
+    axes = [figure.add_subplot(1, n, i + 1, projection="3d") for i in range(n)]
+    points = _moved(mesh, factor)
+    faces = geometry.surface(mesh)
+    _draw_faces(figure, axes[0], points, faces, _stress(mesh),
+                label("von_mises_stress"), "von_mises_stress")
+    title = f"displacement drawn {factor:g} times" if factor > 1 else ""
+    axes[0].set_title(title)
+    if contact is not None:
+        gap = contact.fields["gap"]
+        pressed = [cell[[0, 1, 2, 3] if len(cell) in (4, 9) else [0, 1, 2]]
+                   for cell in contact.cells
+                   if not numpy.isnan(gap[cell]).any()]
+        _draw_faces(figure, axes[1], _moved(contact, factor), pressed,
+                    contact.fields["pressure"].astype(float),
+                    label("pressure"), "pressure")
+        axes[1].view_init(60, -60)
+    for axis in axes:
+        axis.tick_params(pad=-2)
+        for name in "xyz":
+            getattr(axis, f"set_{name}label")(f"${name}$", labelpad=-6)
+            getattr(axis, f"{name}axis").set_major_locator(
+                style.ticker.MaxNLocator(4))
+            getattr(axis, f"{name}axis").pane.set_facecolor("white")
+    return figure
+
+
+def _brightness(corners):
+    """Light from above and the side, so that edges are seen."""
+    light = numpy.array([0.4, -0.6, 0.7])
+    normals = numpy.array([numpy.cross(face[1] - face[0], face[2] - face[0])
+                           for face in corners])
+    lengths = numpy.linalg.norm(normals, axis=1)
+    return 0.7 + 0.3 * abs(normals @ light) / numpy.where(lengths > 0, lengths,
+                                                          1.0)
+
+
+def _draw_faces(figure, axes, points, faces, values, text, name):
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    norm = _range(values[numpy.concatenate(faces)])
+    corners = [points[face] for face in faces]
+    of_faces = numpy.array([values[face].mean() for face in faces])
+    many = len(faces) > MOST_FACES
+    mapped = cm.ScalarMappable(norm, style.FIELD_MAP)
+    colour = mapped.to_rgba(of_faces)
+    colour[:, :3] *= _brightness(corners)[:, None]
+    shown = Poly3DCollection(
+        corners, facecolors=colour, linewidths=0.0 if many else 0.2,
+        edgecolors=colour if many else "#00000060", rasterized=True)
+    shown.drawn_values = of_faces
+    axes.add_collection3d(style.named(shown, name))
+    used = points[numpy.unique(numpy.concatenate(faces))]
+    low, high = used.min(axis=0), used.max(axis=0)
+    size = numpy.maximum(high - low, 0.05 * (high - low).max())
+    centre = (low + high) / 2
+    for axis, c, s in zip("xyz", centre, size):
+        getattr(axes, f"set_{axis}lim")(c - s / 2, c + s / 2)
+    axes.set_box_aspect(size, zoom=0.95)
+    bar = figure.colorbar(mapped, ax=axes, shrink=0.6, aspect=25, pad=0.08)
+    bar.set_label(text)
