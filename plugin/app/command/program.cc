@@ -175,6 +175,16 @@ namespace abut::app
                                            : ExitCode::unusable_answer;
     }
 
+    /** Files of an earlier run that pages and pictures would take for those of
+     * this one. */
+    void remove_sketch(const std::filesystem::path &folder)
+    {
+      std::error_code ignored;
+      for (const char *name :
+           {"parameters.json", "outline.json", "obstacles.vtu"})
+        std::filesystem::remove(folder / name, ignored);
+    }
+
     ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
                        const CommandLine &line)
     {
@@ -187,20 +197,28 @@ namespace abut::app
                  [&]
                  {
                    status.begin();
-                   if (is_root(communicator))
-                     loaded.write_parameters(options.output_folder);
+                   if (!is_root(communicator))
+                     return;
+                   remove_sketch(options.output_folder);
+                   loaded.write_parameters(options.output_folder);
                  });
+      const bool has_page =
+          is_root(communicator) && loaded.get("Output", "Report") == "true";
       Report report(communicator, line.quiet);
       loaded.describe(report);
       try
       {
         const ExitCode code = solve_scene(loaded, options, line, report);
         status.end(code, "", code != ExitCode::stopped);
+        if (has_page)
+          write_page(options.output_folder);
         return code;
       }
       catch (const InputError &error)
       {
         record_error(status, loaded.file.placed(error), report.has_rows());
+        if (has_page)
+          write_page(options.output_folder);
         throw;
       }
       catch (const std::exception &error)
@@ -214,26 +232,30 @@ namespace abut::app
      * status where there is a folder, or where its report is wanted. */
     void record_early_error(MPI_Comm communicator, const CommandLine &line,
                             const std::optional<ParameterFile> &file,
+                            const std::optional<LoadedScene> &loaded,
                             const InputError &error)
     {
       const std::filesystem::path folder = output_folder(line);
       std::error_code ignored;
+      const bool has_page = file && file->get("Output/Report", "") == "true";
       const bool wanted =
           line.command != Command::check
-          && ((file && file->get("Output/Report", "") == "true")
-              || std::filesystem::is_directory(folder, ignored));
+          && (has_page || std::filesystem::is_directory(folder, ignored));
       if (!dealii::Utilities::MPI::broadcast(communicator, wanted))
         return;
       try
       {
         prepare_output(communicator, folder);
         const RunLock lock(folder, communicator);
-        // Those of an earlier run.
-        if (is_root(communicator))
-          for (const char *name : {"parameters.json", "outline.json"})
-            std::filesystem::remove(folder / name, ignored);
+        if (!is_root(communicator))
+          return;
+        remove_sketch(folder);
+        if (loaded)
+          loaded->write_parameters(folder);
         StatusFile status(communicator, folder, line.words, line.file);
         record_error(status, error, false);
+        if (has_page)
+          write_page(folder);
       }
       catch (const InputError &)
       {
@@ -282,7 +304,7 @@ namespace abut::app
       catch (const InputError &error)
       {
         const InputError placed = file ? file->placed(error) : error;
-        record_early_error(communicator, line, file, placed);
+        record_early_error(communicator, line, file, loaded, placed);
         throw placed;
       }
       try

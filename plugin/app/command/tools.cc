@@ -115,4 +115,30 @@ namespace abut::app
     }
     return is_drawn;
   }
+
+  void write_page(const fs::path &folder)
+  {
+    const fs::path log = folder / "report.log";
+    std::string why;
+    try
+    {
+      const bool well =
+          start({"report", folder.string(), "--quiet"}, log).well();
+      std::istringstream said(read_from_disk(log));
+      for (std::string line; std::getline(said, line);)
+        why = without(line, "abut: error: ");
+      if (well)
+      {
+        fs::remove(log);
+        return;
+      }
+      why += " (see " + log.string() + ")";
+    }
+    catch (const std::exception &error)
+    {
+      why = error.what();
+    }
+    std::cerr << "abut: warning: the report was not written: " << why
+              << std::endl;
+  }
 } // namespace abut::app

@@ -23,6 +23,10 @@ namespace abut::app
   /** Draw the pictures of a finished run. A failure is a warning of the report.
    * Not collective, for rank 0; returns whether there is no warning. */
   bool draw_run(Report &report, const std::filesystem::path &folder);
+
+  /** Write the page about the run in @p folder; a failure is a warning. Not
+   * collective, for rank 0. */
+  void write_page(const std::filesystem::path &folder);
 } // namespace abut::app
 
 #endif
