@@ -162,12 +162,15 @@ Exit code: 0 drawn, 2 wrong input or no such Python, 3 nothing to draw.
 )"},
         {"report", R"(abut report FOLDER [options]
 
-Write a page (HTML) about a run from the files in its output folder: verdict,
-problem, results, pictures, examination, convergence, cost, parameters. It needs
-Python 3 with NumPy and Matplotlib, as 'abut draw' does.
+Write report.html, a page about a run, from the files in its output folder: how
+it ended, a sketch of the problem, results, pictures, the examination of the
+answer, its cost, parameters and files. It is one file, needs no network, and
+can be printed; doc/report.md explains it. Runs that were killed or whose scene
+has an error have a page, too. It needs Python 3 with NumPy and Matplotlib, see
+abut help draw.
 
-  --output FILE    the page (default: FOLDER/report.html)
-  --quiet          print warnings and errors only
+  --output FILE  the page (default: report.html in FOLDER)
+  --quiet        print warnings and errors only
 
 Exit code: 0 written, 2 wrong input or no such Python.
 )"},

@@ -216,6 +216,16 @@ namespace abut::app
         report.write(options.output_folder);
     }
 
+    /** Files of an earlier run that pages and pictures would take for those of
+     * this one. */
+    void remove_sketch(const std::filesystem::path &folder)
+    {
+      std::error_code ignored;
+      for (const char *name :
+           {"parameters.json", "outline.json", "obstacles.vtu"})
+        std::filesystem::remove(folder / name, ignored);
+    }
+
     ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
                        const CommandLine &line)
     {
@@ -228,9 +238,11 @@ namespace abut::app
                  [&]
                  {
                    status.begin();
-                   if (is_root(communicator))
-                     write_file(options.output_folder / "parameters.json",
-                                loaded.parameters_json());
+                   if (!is_root(communicator))
+                     return;
+                   remove_sketch(options.output_folder);
+                   write_file(options.output_folder / "parameters.json",
+                              loaded.parameters_json());
                  });
       Report report(communicator, verbosity(line));
       loaded.describe(report);
@@ -262,24 +274,26 @@ namespace abut::app
      * status where there is a folder, or where its report is wanted. */
     void record_early_error(MPI_Comm communicator, const CommandLine &line,
                             const std::optional<ParameterFile> &file,
+                            const std::optional<LoadedScene> &loaded,
                             const InputError &error)
     {
       const std::filesystem::path folder = output_folder(line);
       std::error_code ignored;
+      const bool has_page = file && file->get("Output/Report", "") == "true";
       const bool wanted =
           line.command != Command::check
-          && ((file && file->get("Output/Report", "") == "true")
-              || std::filesystem::is_directory(folder, ignored));
+          && (has_page || std::filesystem::is_directory(folder, ignored));
       if (!dealii::Utilities::MPI::broadcast(communicator, wanted))
         return;
       try
       {
         prepare_output(communicator, folder);
         const RunLock lock(folder, communicator);
-        // Those of an earlier run.
-        if (is_root(communicator))
-          for (const char *name : {"parameters.json", "outline.json"})
-            std::filesystem::remove(folder / name, ignored);
+        if (!is_root(communicator))
+          return;
+        remove_sketch(folder);
+        if (loaded)
+          write_file(folder / "parameters.json", loaded->parameters_json());
         StatusFile status(communicator, folder, line.words, line.file);
         record_error(status, error, false);
         write_page(communicator, folder,
@@ -333,7 +347,7 @@ namespace abut::app
       catch (const InputError &error)
       {
         const InputError placed = file ? file->placed(error) : error;
-        record_early_error(communicator, line, file, placed);
+        record_early_error(communicator, line, file, loaded, placed);
         throw placed;
       }
       try

@@ -70,11 +70,11 @@ def read_obstacles(run, dimension):
     mesh = read_mesh(run.path / "obstacles.vtu")
     if not mesh.cells:
         return {}
-    motion = numpy.column_stack([mesh.cell_fields[f"motion_{axis}"]
+    motion = numpy.column_stack([mesh.fields[f"motion_{axis}"]
                                  for axis in "xyz"[:dimension]])
-    corners = mesh.points[numpy.array(mesh.cells)][:, :, :dimension] \
-        - motion[:, None, :]
-    numbers = mesh.cell_fields["obstacle"].astype(int)
+    cells = numpy.array(mesh.cells)
+    corners = (mesh.points[:, :dimension] - motion)[cells]
+    numbers = mesh.fields["obstacle"][cells[:, 0]].astype(int)
     return {int(number): corners[numbers == number]
             for number in numpy.unique(numbers)}
 
