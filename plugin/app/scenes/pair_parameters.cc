@@ -33,7 +33,7 @@ namespace abut::app
                        "as `Secondary`: self contact.");
     parameter::declare(prm, "Obstacle", "none",
                        OrWord(Patterns::Integer(1), "none"),
-                       parameter::basic("", "1"),
+                       parameter::basic("1", "1"),
                        "Number N of the rigid obstacle (section `Obstacle N`) "
                        "that replaces the primary surface.");
     parameter::declare(
@@ -73,7 +73,7 @@ namespace abut::app
     parameter::declare(prm, "Closed form", "", TextPattern("a name"),
                        parameter::advanced("", "Hertz"),
                        "Name of the exact solution that pictures of a plane "
-                       "scene show beside the computed tractions.");
+                       "scene show next to the computed tractions.");
     parameter::declare(
         prm, "Closed form of pressure", "", TextPattern::formula(),
         parameter::advanced("force/length^2", "2*Fy/pi*sqrt(1 - x^2)"),
