@@ -15,13 +15,19 @@ namespace abut::app
     using Command = CommandLine::Command;
 
     const std::map<std::string, Command> commands = {
-        {"new", Command::new_scene},    {"run", Command::run},
-        {"check", Command::check},      {"search", Command::search},
-        {"chart", Command::tool},       {"atlas", Command::tool},
-        {"draw", Command::tool},        {"report", Command::tool},
+        {"new", Command::new_scene},
+        {"run", Command::run},
+        {"check", Command::check},
+        {"search", Command::search},
+        {"chart", Command::tool},
+        {"atlas", Command::tool},
+        {"draw", Command::tool},
+        {"report", Command::tool},
         {"parameters", Command::parameters},
-        {"serve", Command::serve},      {"help", Command::help},
-        {"--help", Command::help},      {"-h", Command::help},
+        {"serve", Command::serve},
+        {"help", Command::help},
+        {"--help", Command::help},
+        {"-h", Command::help},
         {"--version", Command::version}};
 
     const char *const general_help =
@@ -287,7 +293,8 @@ Print the commands, explain one, or list the known failures by code.
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
     else if (words.size() > 1 && result.command != Command::tool)
-      throw InputError("", "'" + words[0] + "' takes no '" + words[1] + "'.");
+      throw InputError("",
+                       "'" + words[0] + "' takes no '" + words.back() + "'.");
     return result;
   }
 
