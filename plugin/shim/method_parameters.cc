@@ -62,7 +62,7 @@ namespace abut
                 "rigid obstacles. A membrane's obstacle always acts at nodes.");
       parameter::declare(prm, "Multiplier degree", "auto",
                          OrWord(Patterns::Integer(1, 1), "auto"),
-                         parameter::expert("", "1"),
+                         parameter::expert("1", "1"),
                          "Degree of the multipliers of `mortar` on quadratic "
                          "elements. auto: that of the elements.");
       parameter::declare(prm, "Quadrature degree", "auto",

@@ -43,10 +43,10 @@ refused("two-blocks-3d.prm", ("Solid/Obstacles", "1"), NO_EFFECT, "obstacle 1")
 refused("two-blocks-3d.prm", ("Search/Thickness", "77: 1"), "77")
 refused("two-blocks-3d.prm", {"Solid/Pairs": "2", "Pair 2/Primary": "1: 5",
                               "Pair 2/Secondary": "2: 4, 5"},
-        "in pair 'Pair 1', too")
+        "in pair 'Pair 1' and")
 refused("rigid-plate.prm", {"Solid/Pairs": "2", "Pair 2/Obstacle": "1",
                             "Method/Enforcement": "penalty",
-                            "Pair 2/Secondary": "1: *"}, "in pair 'Pair 1', too")
+                            "Pair 2/Secondary": "1: *"}, "in pair 'Pair 1' and")
 refused("rigid-plate.prm", ("Obstacle 1/Rotation centre", "1, 0"), NO_EFFECT,
         "Rotation angle")
 refused("parabola-friction.prm", ("Obstacle 1/Gradient", "x; 0"), NO_EFFECT,

@@ -41,7 +41,7 @@ def same(text, value):
     values = value if isinstance(value, list) else [value]
     words = text.split(", ")
     return len(words) == len(values) and all(
-        isinstance(v, (int, float)) and f"{v:.6g}" == f"{float(w):.6g}"
+        isinstance(v, (int, float)) and f"{v + 0.:.6g}" == f"{float(w) + 0.:.6g}"
         for w, v in zip(words, values))
 
 
@@ -148,7 +148,7 @@ for key in json.loads((p.folder / "out/summary.json").read_text()):
              or value_of(json.loads((p.folder / "out/summary.json")
                                     .read_text()), key) in (None, [], ""),
              f"--verbose prints no {key}")
-for words in ("What was modelled", "What it cost"):
+for words in ("\n  Model\n", "\n  Cost "):
     p.expect(words in result.stdout, f"no '{words}' with --verbose")
 p.expect_error(p.call("run", PRM / "rigid-plate.prm", "--quiet", "--verbose"),
                "--quiet and --verbose")

@@ -16,8 +16,8 @@ NAMES = re.compile(
 
 def main():
     reference = (DOC / "parameters.md").read_text(encoding="utf-8")
-    known = set(re.findall(r"^- \*\*([^*]+)\*\*", reference, re.M))
-    known |= {word for title in re.findall(r"^### (.*?) \(", reference, re.M)
+    known = set(re.findall(r"^- (?:<a id=.*?</a>)?\*\*([^*]+)\*\*", reference, re.M))
+    known |= {word for title in re.findall(r"^### (.*?)(?: \(.*)?$", reference, re.M)
               for word in title.split("/")}
     pages = [page for folder in ("theory", "lecture", "howto")
              for page in sorted((DOC / folder).glob("*.md"))]

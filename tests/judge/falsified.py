@@ -220,13 +220,13 @@ end
                 "  set Primary", "  set Friction = 0.3\n  set Primary"),
     "rubber": (ROOT / "prm/finite-disc.prm").read_text(encoding="utf-8")
     .replace("set Level = 4", "set Level = 3")
-    .replace("set Steps = 15", "set Steps = 4"),
+    .replace("set Number of steps = 15", "set Number of steps = 4"),
     "pad": (ROOT / "prm/rubber-pad.prm").read_text(encoding="utf-8")
-    .replace("set Steps = 5", "set Steps = 2"),
+    .replace("set Number of steps = 5", "set Number of steps = 2"),
     "motion": (ROOT / "prm/bar-impact.prm").read_text(encoding="utf-8")
-    .replace("set End = 2", "set End = 0.6"),
+    .replace("set End time = 2", "set End time = 0.6"),
     "rubber in motion": (ROOT / "prm/ring-impact.prm").read_text(
-        encoding="utf-8").replace("set End = 4", "set End = 0.6"),
+        encoding="utf-8").replace("set End time = 4", "set End time = 0.6"),
     "thrown": """
 set Scene = motion
 set Dimension = 2
@@ -783,7 +783,7 @@ FALSIFICATIONS = [
      lambda c: c.edit("subsection Body 1", "subsection Solid\n"
                       "  set Gravity = -0.1, 0\nend\nsubsection Body 1")),
     ("tension of the membrane in the scene", "membrane",
-     lambda c: c.edit("set Load = -4", "set Load = -4\n"
+     lambda c: c.edit("set Body force = -4", "set Body force = -4\n"
                       "  set Conductivity = 1.1")),
 ]
 

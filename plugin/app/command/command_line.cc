@@ -61,7 +61,7 @@ are compared with, into FILE.prm (default: KIND.prm), which must not exist:
   hertz        two cylinders, refined where they touch
   two-bodies   a block on another one, meshes that do not match
   friction     a rigid plate that slides on a block
-  sliding      a block dragged over a soft one: large strain, large sliding
+  sliding      a block dragged over a soft one: finite strain, large sliding
   impact       a bar that hits a wall
   obstacle     a membrane over an obstacle
   masses       a mass on a spring above a support
@@ -79,7 +79,7 @@ Solve the scene and write its results.
                               the same scene, on any number of ranks
   --quiet                     print warnings and errors only
   --verbose                   print all lines of progress, all figures of
-                              summary.json, what was modelled and what it cost
+                              summary.json, the model, its cost
   --explain                   print at the end which parts could be left out, at
                               the target error if there is one
 
@@ -139,7 +139,7 @@ the expectations in the comments of the files, and write a page about it.
 
   --output DIR    folder of the runs (default: output/atlas)
   --report FILE   the page (default: failures.md in that folder); its pictures
-                  are beside it, in pictures/failures
+                  are in pictures/failures
   --no-pictures   do not draw the runs
   --quiet         print only unexpected results
 
@@ -303,7 +303,8 @@ Print the commands, explain one, or list the known failures by code.
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];
     else if (words.size() > 1 && result.command != Command::tool)
-      throw InputError("", "'" + words[0] + "' takes no '" + words[1] + "'.");
+      throw InputError("",
+                       "'" + words[0] + "' takes no '" + words.back() + "'.");
     return result;
   }
 

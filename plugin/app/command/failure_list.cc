@@ -13,19 +13,19 @@ namespace abut::app
     {
       static const std::map<abut_failure, const char *> parameters = {
           {ABUT_FAILURE_PENALTY,
-           "leave Method/Penalty = 0, or use augmented lagrangian or lagrange"},
+           "Method/Penalty factor = auto, or augmented lagrangian or lagrange"},
           {ABUT_FAILURE_MULTIPLIERS_STALL,
-           "Method/Adaptive penalty = true, or a larger Method/Penalty"},
+           "Method/Adaptive penalty = true, or a larger Method/Penalty factor"},
           {ABUT_FAILURE_COLD_START, "Refinement/Nested iteration = true"},
-          {ABUT_FAILURE_OVERLAP, "move the bodies apart, or say that it is "
-                                 "interference (Pair/Initial "
-                                 "gap)"},
+          {ABUT_FAILURE_OVERLAP, "move the bodies apart, or set the "
+                                 "interference as Pair N/Initial gap"},
           {ABUT_FAILURE_LOCKING,
            "Body N/Element = mean dilatation, or Solid/Degree = 2"},
-          {ABUT_FAILURE_BUCKETS, "Search/Bucket size = 0, or adaptive buckets"},
+          {ABUT_FAILURE_BUCKETS,
+           "Search/Bucket size = auto, or adaptive buckets"},
           {ABUT_FAILURE_LINEAR_SOLVER, "Solver/Linear solver = direct or auto"},
           {ABUT_FAILURE_NITSCHE,
-           "leave Method/Penalty = 0, or Method/Nitsche theta = -1"},
+           "Method/Penalty factor = auto, or Method/Nitsche theta = -1"},
           {ABUT_FAILURE_NEGATIVE_WEIGHTS, "Method/Discretisation = mortar"},
           {ABUT_FAILURE_INTERIOR, "lagrange, or a looser Method/Gap tolerance"},
           {ABUT_FAILURE_STICK_SLIP,
@@ -42,7 +42,7 @@ namespace abut::app
 
   std::string failure_list()
   {
-    std::string text = "| code | failure | what helps |\n|---|---|---|\n";
+    std::string text = "| code | failure | remedy |\n|---|---|---|\n";
     for (int i = 0; abut_failure_at(i) != nullptr; ++i)
     {
       const abut_failure_entry &failure = *abut_failure_at(i);

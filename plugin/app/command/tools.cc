@@ -30,7 +30,7 @@ namespace abut::app
           return tools;
         if (folder == folder.root_path())
           throw InputError("", "the folder share/abut/tools was not found "
-                               "near "
+                               "next to "
                                    + program.string()
                                    + ": install the program again.");
       }

@@ -80,7 +80,7 @@ namespace abut::app
     /** A number without the digits that only the computer sees. */
     std::string in_short(const double value)
     {
-      return short_number(value, digits);
+      return short_number(value + 0., digits); // 0, not -0
     }
 
     std::string short_text_of(const Report::Value &value)

@@ -33,7 +33,7 @@ namespace abut::app
                        "as `Secondary`: self contact.");
     parameter::declare(prm, "Obstacle", "none",
                        OrWord(Patterns::Integer(1), "none"),
-                       parameter::basic("", "1"),
+                       parameter::basic("1", "1"),
                        "Number N of the rigid obstacle (section `Obstacle N`) "
                        "that replaces the primary surface.");
     parameter::declare(
@@ -72,8 +72,8 @@ namespace abut::app
         "without supports.");
     parameter::declare(prm, "Closed form", "", TextPattern("a name"),
                        parameter::advanced("", "Hertz"),
-                       "Name of the solution from theory that pictures of "
-                       "plane scenes show with the computed tractions.");
+                       "Name of the exact solution that pictures of a plane "
+                       "scene show next to the computed tractions.");
     parameter::declare(
         prm, "Closed form of pressure", "", TextPattern("a formula"),
         parameter::advanced("force/length^2", "4*Fy/pi*sqrt(max(0, 1 - x^2))"),

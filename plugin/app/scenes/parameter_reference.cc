@@ -269,8 +269,7 @@ namespace abut::app
         const DeclaredParameter &parameter = entry.parameter;
         out << "- ";
         if (options.is_all())
-          out << "<a id=\"" << anchor(section.name + " " + entry.name)
-              << "\"></a>";
+          out << "<a id=\"" << anchor_of(section, entry) << "\"></a>";
         out << "**" << entry.name << "** = " << defaults(entry);
         out << " (" << parameter.pattern;
         if (!parameter.note.unit.empty())
@@ -284,6 +283,17 @@ namespace abut::app
         if (entry.kinds() != section.kinds())
           out << " Only in: " << joined(entry.kinds(), ", ") << ".";
         out << "\n";
+      }
+
+      /** Of entries with one name in a section, others than the first have
+       * their kind of scenes. */
+      static std::string anchor_of(const Section &section, const Entry &entry)
+      {
+        const Entry &first = *std::find_if(
+            section.entries.begin(), section.entries.end(),
+            [&](const Entry &each) { return each.name == entry.name; });
+        return anchor(heading(section.name) + " " + entry.name
+                      + (&first == &entry ? "" : " " + entry.kinds()[0]));
       }
 
       /** A line with the entries of section @p name that @p other has. */

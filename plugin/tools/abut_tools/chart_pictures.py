@@ -13,7 +13,7 @@ from .errors import warn
 AXES = {"Refinement/Level": "level of the mesh",
         "Refinement/Adaptive cycles": "adaptive cycles",
         "Refinement/Target error": "target of the relative error",
-        "Method/Penalty": "penalty",
+        "Method/Penalty": "penalty", "Method/Penalty factor": "penalty",
         "Method/Barrier end": "barrier end",
         "Search/Bucket size": "edge of a bucket / median facet"}
 

@@ -356,8 +356,8 @@ namespace abut::app
           {"Restitution", "velocity level"}};
       for (const auto &[name, scheme] : of_schemes)
         rules.push_back(effective_if(
-            std::string("Time stepping/") + name, Weight::setting, scheme_is({scheme}),
-            std::string("it belongs to ") + scheme + "."));
+            std::string("Time stepping/") + name, Weight::setting,
+            scheme_is({scheme}), std::string("it belongs to ") + scheme + "."));
       return rules;
     }
 
