@@ -5,7 +5,6 @@
 #include "app/adapt/refine_mesh.h"
 #include "app/physics/hooke.h"
 #include "app/physics/stress_output.h"
-#include "app/pictures/body_pictures.h"
 #include "app/pictures/contact_line.h"
 #include "app/pictures/contact_output.h"
 #include "app/pictures/field_output.h"
@@ -382,55 +381,6 @@ namespace
       ++rows;
     Expect::that(rows == two[0].size() + two[1].size(), "rows");
   }
-
-  void picture()
-  {
-    Problem<2> problem(2, 2);
-    two_bodies(problem, 4);
-    problem.mesh.refine_global(2);
-    problem.distribute();
-    const la::Vector u = problem.interpolate("-0.001*x*y; -0.002*y");
-    const la::Vector traction = problem.interpolate("0; -sin(pi*x)");
-    const std::vector<PressureCurve> curves = {
-        {"pair 1", contact_lines(problem.mapping, problem.dof_handler, {3},
-                                 {traction, nullptr, nullptr})}};
-    Report report(MPI_COMM_WORLD, Verbosity::quiet);
-    const bool root =
-        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    Expect::that(draw_bodies(report, folder, "bodies", problem.mapping,
-                             problem.dof_handler, u, hooke<2>(7., 0.3), curves,
-                             {}, "Two bodies")
-                     == root,
-                 "bodies are drawn");
-    abut_obstacle_shape plane = abut_obstacle_shape_defaults();
-    plane.dimension = 2;
-    plane.axis[0] = 1.;
-    Expect::that(draw_bodies(report, folder, "bodies-plane", problem.mapping,
-                             problem.dof_handler, u, hooke<2>(7., 0.3), {},
-                             {{std::make_shared<RigidObstacle<2>>(plane), {}}},
-                             "Bodies and a plane")
-                     == root,
-                 "bodies are drawn with an obstacle");
-    Expect::that(draw_bodies(report, folder, "bodies-alone", problem.mapping,
-                             problem.dof_handler, u, hooke<2>(7., 0.3), {}, {},
-                             "Two bodies")
-                     == root,
-                 "bodies are drawn without contact");
-    if (!root)
-      return;
-    const std::string script = content(folder / "bodies.gp");
-    Expect::that(script.find("drawn 50 times") != std::string::npos,
-                 "factor of the displacement");
-    Expect::that(script.find("$obstacles") == std::string::npos
-                     && content(folder / "bodies-plane.gp")
-                                .find(", $obstacles using 1:2")
-                            != std::string::npos,
-                 "obstacle in the picture");
-    const std::string svg = content(folder / "bodies.svg");
-    Expect::that(svg.find("</svg>") != std::string::npos, "picture complete");
-    Expect::that(svg.size() < 300000,
-                 "picture is small: " + std::to_string(svg.size()));
-  }
 } // namespace
 
 int
@@ -449,6 +399,5 @@ main(int argc, char **argv)
                       transfer<3>();
                       lines(1);
                       lines(2);
-                      picture();
                     });
 }

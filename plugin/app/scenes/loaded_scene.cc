@@ -157,31 +157,6 @@ namespace abut::app
     return out.str();
   }
 
-  void LoadedScene::write_parameters(const std::filesystem::path &folder) const
-  {
-    std::ostringstream out;
-    JsonWriter json(out);
-    json.begin();
-    json.value("scene", file.name());
-    json.value("file", file.path());
-    json.value("kind", std::string(kind()));
-    json.value("dimension", static_cast<std::int64_t>(dimension));
-    json.begin("parameters");
-    const auto given = file.values();
-    for (const DeclaredParameter &parameter : declared)
-    {
-      json.begin(parameter.path);
-      json.value("value", parameter.value);
-      json.value("default", parameter.default_value);
-      json.value("given", given.count(parameter.path) > 0);
-      json.value("origin", file.origin(parameter.path));
-      json.end();
-    }
-    json.end();
-    json.end();
-    write_file(folder / "parameters.json", out.str());
-  }
-
   RunIdentity LoadedScene::identity() const
   {
     RunOptions options;
