@@ -13,15 +13,13 @@
  * for it (on Linux). */
 #include "serve.h"
 
+#include "app/process/child_process.h"
+
 #include <fcntl.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -74,18 +72,6 @@ namespace abut::app
               || (setrlimit(RLIMIT_CPU, &time) == 0
                   && setrlimit(RLIMIT_CORE, &core) == 0))
              && (request.memory == 0 || setrlimit(RLIMIT_AS, &memory) == 0);
-    }
-
-    /** End this process when @p parent ends. */
-    void end_with(const pid_t parent)
-    {
-#ifdef __linux__
-      prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (getppid() != parent) // it has ended before the line above
-        _exit(127);
-#else
-      (void)parent;
-#endif
     }
 
     /** What the new process does. */

@@ -351,8 +351,12 @@ namespace abut::app
   {
     const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
     const std::string key = "pair_" + std::to_string(number) + "_";
-    const double deformation = std::get<double>(report.get("deformation"));
-    const shim::DepthScale scale{deformation, u.linfty_norm(),
+    // An iteration without an answer is not examined.
+    const Report::Value found = report.get("deformation");
+    const auto *deformation = std::get_if<double>(&found);
+    if (deformation == nullptr)
+      return;
+    const shim::DepthScale scale{*deformation, u.linfty_norm(),
                                  shim::round_off_of_places * facet};
     const double large = scale.limit(shim::useless);
     const double closed = std::max(0., result.penetration);
