@@ -88,12 +88,12 @@ p.expect(faults(text.replace("</table>", "", 1),
 # No answer: the verdict and the reason come first.
 for scene, settings in p.some([
         ("point-mass.prm", {"Method/Enforcement": "augmented lagrangian",
-                            "Method/Maximum outer steps": 2,
+                            "Method/Maximum outer iterations": 2,
                             "Method/Gap tolerance": 1e-12}),
         ("failures/few-steps.prm", {}),
         ("failures/large-strain.prm", {}),
         ("failures/explicit-step.prm", {}),
-        ("flat-obstacle.prm", {"Method/Maximum steps": 1,
+        ("flat-obstacle.prm", {"Method/Maximum linear systems": 1,
                                "Refinement/Level": 3})], 2):
     run(scene, "none", 3, settings)
     look("none", "NO ANSWER", 'class="message bad"')
