@@ -189,8 +189,9 @@ namespace
     for (const char *name :
          {"Time stepping/Number of steps", "Refinement/Adaptive cycles",
           "Refinement/Relaxation sweeps", "Solver/Smoother sweeps",
-          "Output/Linear solves for comparison", "Sweep/Repeats", "Time stepping/Step size",
-          "Time stepping/End time", "Refinement/Maximum meshes", "Refinement/Target error"})
+          "Output/Linear solves for comparison", "Sweep/Repeats",
+          "Time stepping/Step size", "Time stepping/End time",
+          "Refinement/Maximum meshes", "Refinement/Target error"})
       if (path == name)
         return true;
     return false;

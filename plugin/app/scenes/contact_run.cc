@@ -601,8 +601,8 @@ namespace abut::app
         if (!can_pass_over())
           return false;
         report.detail("mesh " + std::to_string(state.mesh_number + 1)
-                        + " has no solution; the next one starts without it: "
-                        + failure.text);
+                      + " has no solution; the next one starts without it: "
+                      + failure.text);
         set_refine_flags();
         refine();
         begin_anew();
