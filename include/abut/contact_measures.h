@@ -35,7 +35,7 @@ extern "C"
   /** Forces on a side of a pair. */
   typedef struct abut_side_forces
   {
-    double force[3];
+    double force[3];          /**< sum of the forces */
     double moment[3];         /**< about the origin, where points were made */
     double present_moment[3]; /**< the same in the current configuration */
   } abut_side_forces;
@@ -52,7 +52,8 @@ extern "C"
     double largest_tension;  /**< >= 0, ties left out */
     double penetration;      /**< largest, length >= 0; ties: of both signs */
     double initial_gap_work; /**< of pressures of fixed points on their gaps */
-    abut_side_forces secondary, primary;
+    abut_side_forces secondary; /**< on the secondary surface */
+    abut_side_forces primary;   /**< on the primary surface */
   } abut_contact_sums;
 
   /** Measure the points of each pair.

@@ -295,7 +295,8 @@ namespace abut::shim
                 + (!hidden   ? std::string()
                    : presses ? ", undetected by nodes: " + number(unknown)
                              : ", and no constraint is active")
-                + (missed ? ", and facets without contact by up to "
+                + (missed ? ". Facets without any contact are penetrated by "
+                            "up to "
                                 + number(pair.missed_depth)
                           : std::string())
                 + ". Refine the surface there; smaller load steps do not help.",
@@ -434,11 +435,11 @@ namespace abut::shim
                 + compared(scale, deepest.any)
                 + (hidden ? ", undetected by nodes: " + number(peak)
                           : std::string())
-                + (missed ? ", and cells without contact that it penetrates by "
-                            "up to "
+                + (missed ? ". Cells without any contact are penetrated by up "
+                            "to "
                                 + number(deepest.missed)
                           : std::string())
-                + ": refine the mesh there.");
+                + ". Refine the mesh there.");
     }
   } // namespace
 

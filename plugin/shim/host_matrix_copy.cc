@@ -80,7 +80,7 @@ namespace abut::shim
                         const dealii::AffineConstraints<double> &constraints,
                         const std::string &name, const MPI_Comm communicator)
   {
-    const double visible = 1e-10; // beside the diagonal
+    const double visible = 1e-10; // off the diagonal
     const la::LocalRows rows = la::local_rows(matrix);
     Index bad = dealii::numbers::invalid_dof_index;
     const dealii::IndexSet owned = la::owned_rows(matrix);

@@ -72,8 +72,8 @@ near(expect(run(plate, *kind("distance", Expression="1 - y")), 0,
 # A ball of radius 0.2 that comes down by 0.03 in the middle of a facet: its
 # ends, 0.125 away, are 0.125^2 / (2 * 0.2) = 0.039 outside of it.
 ball = kind("sphere", Radius=0.2, Centre="0.375, 1.2", Motion="0, -0.03*t")
-summary = expect(run(plate, *ball), 3, "ABUT-F37", "refine",
-                 without=("use smaller load steps",))
+summary = expect(run(plate, *ball), 3, "ABUT-F37", "Refine",
+                 without=("Use smaller load steps", "or use smaller"))
 p.expect(summary["active"] == 0 and summary["contact_force"] == 0,
          "no node of the coarse mesh meets the ball")
 near(summary["missed_depth"], 0.015, 0.02, "depth of the ball, first step")
@@ -125,7 +125,7 @@ expect(run(parabola), 0, without=("ABUT-F36",))
 
 # A needle that is in the block through a facet: no place of it is deep.
 expect(run(plate, *kind("box", Centre="0.625, 1.1", Size="0.01, 1")), 3,
-       "ABUT-F37", "no contact at all")
+       "ABUT-F37", "without any contact")
 
 # Things in the inside of the block, which its upper side does not see, however
 # small they are; beside the block they are none of its business.
@@ -380,7 +380,7 @@ expect(run(blocks, "Body 2/Mesh/Arguments=" + corner.format("1, 1", "2, 2")), 2,
 for far in (1e9, 1e12):
     expect(run(blocks, "Body 2/Mesh/Arguments="
                + corner.format(f"{far:.0f}, 1", f"{far:.0f}.01, 1.01")), 2,
-           "badly conditioned")
+           "round-off")
 
 # A block that slides by half its length, four facets.
 slide = "Body 2/Prescribed displacement=3: 0.5*t, -0.01"

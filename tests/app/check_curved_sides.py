@@ -227,8 +227,8 @@ def unused(level, *lines):
             if "Curved sides" in line]
 
 
-p.expect(unused(0) == ["Body 1/Mesh/Curved sides: the mesh is used as it is "
-                       "made, with straight facets: refine it "
+p.expect(unused(0) == ["Body 1/Mesh/Curved sides: the mesh is not refined "
+                       "and keeps straight facets: refine it "
                        "(Refinement/Level)."], f"level 0: {unused(0)}")
 p.expect(unused(0, "Refinements = 1") == unused(1) == [], "refined")
 

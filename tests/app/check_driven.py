@@ -222,7 +222,7 @@ refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Initial velocity": "0, 1"},
         "Obstacle 1/Initial velocity", "Time stepping/Scheme is quasi-static")
 refused("hertz-axisymmetric.prm",
         {"Obstacle 1/Motion": "", "Obstacle 1/Free directions": "x"},
-        "Obstacle 1/Free directions", "along it")
+        "Obstacle 1/Free directions", "along the axis")
 refused("struck-bar.prm", {"Obstacle 1/Initial velocity": "0, 1"},
         "Obstacle 1/Initial velocity", "does not name it")
 refused("struck-bar.prm", {"Obstacle 1/Mass": "0"},

@@ -280,7 +280,7 @@ WRONG = (
                                (9, 0, 1, 2, 3, 4, 5, 6)), "node 4 in line 9",
      "node 1 to 2", ".6 away"),
     ("inside-out.msh", 2, gmsh((*TRIANGLE[:3], (.9, 0), *TRIANGLE[4:]),
-                               (9, 0, 1, 2, 3, 4, 5, 6)), "inside out"),
+                               (9, 0, 1, 2, 3, 4, 5, 6)), "inverted"),
     ("two-middles.msh", 2, gmsh(
         (*TRIANGLE, (1, 1), (.5, .5), (1, .5), (.5, 1)),
         (9, 0, 1, 2, 3, 4, 5, 6), (9, 0, 2, 7, 3, 9, 10, 8)),
@@ -311,7 +311,7 @@ WRONG = (
     ("entities.msh", 2, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n"
      "99 0 0 0\n1 0 0 0 0\n$EndEntities\n", "line 7", "$Entities"),
     ("partition.msh", 2, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
-     "$PartitionedEntities\n", "partitions"),
+     "$PartitionedEntities\n", "partitioned"),
     # Abaqus
     ("empty.inp", 2, "*HEADING\n", "no *NODE"),
     ("no-elements.inp", 2, abaqus(SQUARE), "no *ELEMENT"),

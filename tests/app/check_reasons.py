@@ -92,7 +92,7 @@ def rings(inner, outer):
 
 for inner, outer in ((3, 2), (2, 3), (5, 3)):
     expect(run(fit, *rings(inner, outer)), (3,), "ABUT-F21",
-           "their curve", "Mesh gap")
+           "their curve", "Use mesh gap = false")
 for n in (4, 8):
     summary = expect(run(fit, *rings(n, n)), (0,),
                      without=("their curve",))

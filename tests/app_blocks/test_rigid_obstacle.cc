@@ -290,7 +290,7 @@ namespace
     refuse3({{"Kind", "distance"}, {"Expression", "x"}, {"Gradient", "1"}},
             "Gradient", {"3 formulas"});
     refuse3({{"Motion", "t"}}, "Motion", {"3 formulas"});
-    refuse3({{"Motion", "x; 0; 0"}}, "Motion", {"place"});
+    refuse3({{"Motion", "x; 0; 0"}}, "Motion", {"depends on x"});
     refuse3({{"Motion", "0; 0; 1/t"}}, "Motion", {"infinite"});
     refuse3({{"Rotation axis", "0 0 0"}}, "Rotation axis", {"zero"});
     refuse3({{"Rotate", "1"}}, "Rotate", {"three angles"});

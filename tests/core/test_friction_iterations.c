@@ -255,12 +255,12 @@ tresca_contracts_by_the_coupling(void **unused)
     if (r > 1)
     {
       /* In the second round friction lifts the mass, and there is none then. */
-      assert_non_null(strstr(message, "after 1 rounds"));
+      assert_non_null(strstr(message, "after 1 iterations"));
       assert_non_null(strstr(message, "no state of stick and slip is found"));
       assert_true(answer.progress.step < 70);
       continue;
     }
-    const char *told = strstr(message, "after 100 rounds");
+    const char *told = strstr(message, "after 100 iterations");
     assert_non_null(told);
     told = strstr(told, "change by ");
     assert_non_null(told);

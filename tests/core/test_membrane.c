@@ -290,7 +290,7 @@ barrier_refuses_a_closed_start(void **unused)
   /* Of 7 x 7 nodes the columns x = -0.75 .. 0.25 have psi > -0.7, and the
    * worst has psi = -0.2. */
   const char *text = abut_context_message(context);
-  assert_non_null(strstr(text, "35 rows"));
+  assert_non_null(strstr(text, "35 constraints"));
   assert_non_null(strstr(text, "-0.5"));
   membrane_destroy(&scene);
   assert_ok(abut_context_destroy(&context));

@@ -341,8 +341,7 @@ namespace
     Sparse coupled(compressed);
     problem.copy_values(coupled);
     coupled.set(eliminated, (eliminated + 1) % rhs.size(), 1.);
-    refuses("has entries beside the diagonal",
-            [&] { contact.solve(coupled, rhs, du); });
+    refuses("off-diagonal entries", [&] { contact.solve(coupled, rhs, du); });
     refuses("in row " + std::to_string(eliminated) + ".",
             [&] { contact.solve(coupled, rhs, du); });
     refuses("residual given to solve()", [&] { contact.solve(K, longer, du); });

@@ -402,8 +402,7 @@ namespace
     expect_need("Method/System = saddle point", method);
     method = MethodParameters();
     method.kinematics = ABUT_KINEMATICS_CURRENT;
-    expect_need("Contact at points that move (Method/Contact geometry)",
-                method);
+    expect_need("Contact with Method/Contact geometry = current", method);
     SolverParameters solver;
     solver.linear = SolverParameters::Linear::direct;
     expect_need("Solver/Linear solver = direct", {}, solver);

@@ -65,7 +65,7 @@ namespace
     refuses(run, nullptr, {"interface", "quadrature point", "lagrange"});
     run.method = hosts::method("barrier", std::nullopt);
     run.tied = true;
-    refuses(run, nullptr, {"interface", "barrier", "glue"});
+    refuses(run, nullptr, {"interface", "barrier", "cannot tie"});
   }
 
   /** A wedge that opens from 0 to 0.4: half a facet reaches to a third of it.

@@ -123,11 +123,11 @@ namespace
                   });
     u.compress(dealii::VectorOperation::insert);
     throws_everywhere("NaN in the displacement", [&] { contact.detect(u); },
-                      {"interface", "displacement", "not a number"});
+                      {"interface", "displacement", "not finite"});
     contact.detect(blocks.displacement());
     throws_everywhere("NaN in the displacement of the check",
                       [&] { contact.checks().penetrations(u, 1e-6); },
-                      {"interface", "displacement", "not a number"});
+                      {"interface", "displacement", "not finite"});
     // Nothing is left behind.
     contact.detect(blocks.displacement());
     expect(contact.results().measures().n_rows > 0, "rows after the errors");

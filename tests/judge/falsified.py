@@ -203,7 +203,7 @@ subsection Mesh
   set Arguments = -1 : 1 : false
 end
 subsection Membrane
-  set Load = -4
+  set Body force = -4
 end
 subsection Contact
   set Obstacle = -0.3 - 0.2*x^2

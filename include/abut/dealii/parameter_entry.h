@@ -28,28 +28,31 @@ namespace abut::parameter
   /** Data that a declaration adds to name, default, pattern and text. */
   struct Note
   {
-    Level level = Level::advanced;
+    Level level = Level::advanced; /**< who needs the parameter */
     std::string unit;    /**< "length"; "1" without dimension; else empty */
     std::string example; /**< a legal value; empty for words and truth values */
   };
 
-  /** @name Notes by their level @{ */
+  /** The note of a basic parameter. */
   inline Note basic(const std::string &unit = "",
                     const std::string &example = "")
   {
     return {Level::basic, unit, example};
   }
+
+  /** The note of an advanced parameter. */
   inline Note advanced(const std::string &unit = "",
                        const std::string &example = "")
   {
     return {Level::advanced, unit, example};
   }
+
+  /** The note of an expert parameter. */
   inline Note expert(const std::string &unit = "",
                      const std::string &example = "")
   {
     return {Level::expert, unit, example};
   }
-  /** @} */
 
   /** Declare an entry with @p text, followed by the note in brackets:
    * "Young modulus. [basic; force/length^2; 210e3]". */
@@ -62,10 +65,11 @@ namespace abut::parameter
    * documentation without a note is all text. */
   struct Documentation
   {
+    /** Split the @p documentation of an entry. */
     explicit Documentation(const std::string &documentation);
 
-    std::string text;
-    Note note;
+    std::string text; /**< the text without the note */
+    Note note;        /**< the note in brackets */
   };
 
   /** The value of entry @p name, or 0 where it is a word in place of a number
@@ -77,15 +81,15 @@ namespace abut::parameter
   struct OldName
   {
     const char *old_path; /**< `Section/Name` */
-    const char *path;
+    const char *path;     /**< `Section/Name` of today */
   };
 
   /** A word of a selection that was another one. */
   struct OldValue
   {
-    const char *path; /**< of today */
-    const char *old_value;
-    const char *value;
+    const char *path;      /**< of today */
+    const char *old_value; /**< the former word */
+    const char *value;     /**< the word of today */
   };
 
   /** All names that have changed; scene files may still have them. */

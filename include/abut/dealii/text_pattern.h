@@ -67,6 +67,7 @@ namespace abut
       return TextPattern("a file");
     }
 
+    /** Each text matches. */
     bool match(const std::string &) const override
     {
       return true;
@@ -78,6 +79,7 @@ namespace abut
       return "[Text " + type + "]";
     }
 
+    /** A copy, as deal.II's ParameterHandler needs it. */
     std::unique_ptr<dealii::Patterns::PatternBase> clone() const override
     {
       return std::make_unique<TextPattern>(*this);
@@ -92,12 +94,14 @@ namespace abut
   class OrWord : public dealii::Patterns::PatternBase
   {
   public:
+    /** @p pattern, or @p word. */
     OrWord(const dealii::Patterns::PatternBase &pattern,
            const std::string &word)
         : pattern(pattern.clone()), word(word)
     {
     }
 
+    /** Whether @p text is the word, 0, or matches the pattern. */
     bool match(const std::string &text) const override
     {
       char *end = nullptr;
@@ -113,6 +117,7 @@ namespace abut
       return "[Or " + word + " " + pattern->description(style) + "]";
     }
 
+    /** A copy, as deal.II's ParameterHandler needs it. */
     std::unique_ptr<dealii::Patterns::PatternBase> clone() const override
     {
       return std::make_unique<OrWord>(*pattern, word);

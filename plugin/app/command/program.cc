@@ -162,13 +162,10 @@ namespace abut::app
         status.end(ExitCode::internal_error, error.what(), has_results);
     }
 
-    ExitCode solve_scene(LoadedScene &loaded, RunOptions options,
+    ExitCode solve_scene(LoadedScene &loaded, const RunOptions &options,
                          const CommandLine &line, Report &report)
     {
       MPI_Comm communicator = options.communicator;
-      const std::unique_ptr<Restart> restart =
-          make_restart(loaded, options, line.resume);
-      options.restart = restart.get();
       const Outcome outcome = run_to_end(loaded, options, report);
       if (outcome == Outcome::stopped)
       {
@@ -181,8 +178,8 @@ namespace abut::app
       report.check_expected();
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
-      if (restart)
-        restart->finish();
+      if (options.restart != nullptr)
+        options.restart->finish();
       report.print_summary();
       if (line.explain)
         report.explain();
@@ -226,12 +223,16 @@ namespace abut::app
         std::filesystem::remove(folder / name, ignored);
     }
 
-    ExitCode run_scene(LoadedScene &loaded, const RunOptions &options,
+    ExitCode run_scene(LoadedScene &loaded, RunOptions options,
                        const CommandLine &line)
     {
       MPI_Comm communicator = options.communicator;
       prepare_output(communicator, options.output_folder);
       const RunLock lock(options.output_folder, communicator);
+      // An error of --resume changes no file.
+      const std::unique_ptr<Restart> restart =
+          make_restart(loaded, options, line.resume);
+      options.restart = restart.get();
       StatusFile status(communicator, options.output_folder, line.words,
                         line.file);
       collective(communicator,
@@ -281,7 +282,7 @@ namespace abut::app
       std::error_code ignored;
       const bool has_page = file && file->get("Output/Report", "") == "true";
       const bool wanted =
-          line.command != Command::check
+          line.command != Command::check && !line.resume
           && (has_page || std::filesystem::is_directory(folder, ignored));
       if (!dealii::Utilities::MPI::broadcast(communicator, wanted))
         return;

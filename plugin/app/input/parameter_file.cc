@@ -4,6 +4,8 @@
 #include "expression.h"
 #include "number_text.h"
 
+#include <abut/dealii/parameter_entry.h>
+
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
@@ -102,6 +104,12 @@ namespace abut::app
         throw InputError(path, "there is no section '" + section + "'."
                                    + did_you_mean(section, {sections.begin(),
                                                             sections.end()}));
+      // Under another section, or under its old name.
+      for (const parameter::OldName &old : parameter::old_names())
+        if (std::filesystem::path(old.old_path).filename() == name)
+          for (const DeclaredParameter &parameter : declared)
+            if (parameter.path == old.path)
+              same_name.push_back(parameter.path);
       std::string advice = did_you_mean(name, names);
       if (advice.empty() && !same_name.empty())
         advice = " There is a parameter '" + same_name.front() + "'.";

@@ -14,6 +14,9 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace abut::app
 {
   namespace
@@ -145,9 +148,14 @@ namespace abut::app
         const Material<dim> &material = of_cells.at(cell);
         const double volume = cell->measure();
         for (unsigned int i = 0; i < dofs.size(); ++i)
-          means.add(dofs[i], volume,
-                    components(material.stress(du[i], u[i],
-                                               points.quadrature_point(i))));
+        {
+          const std::vector<double> stress = components(
+              material.stress(du[i], u[i], points.quadrature_point(i)));
+          // A cell that is inverted at this corner has no stress there.
+          if (std::all_of(stress.begin(), stress.end(),
+                          [](const double s) { return std::isfinite(s); }))
+            means.add(dofs[i], volume, stress);
+        }
       }
     }
   } // namespace

@@ -121,7 +121,7 @@ abut_friction_describe_end(const abut_friction_rows *f, abut_text *text)
     if (f->steps > MAX_STEPS)
       abut_text_add(text,
                     ", and no state of stick and slip is found with them");
-    abut_text_add(text, "; primal-dual needs no rounds");
+    abut_text_add(text, "; primal-dual needs no such iterations");
     break;
   }
 }
