@@ -43,13 +43,13 @@ def solve(deck):
     # Springs of stick are a multiple of the local stiffness: traction by slip of
     # a step, with nodes that stick.
     penalty = .1
-    rows = [deck.run(settings={"Method/Penalty": penalty, "Time/End": end})
+    rows = [deck.run(settings={"Method/Penalty factor": penalty, "Time stepping/End time": end})
             .node(2, .25, .25, 1) for end in ("1.95e-7", "2e-7")]
     slope = (rows[0]["contact_x"] - rows[1]["contact_x"]) \
         / .0625 / rows[1]["slip_x"]
-    settings = {"Method/Penalty": penalty * 1e5 / slope}
+    settings = {"Method/Penalty factor": penalty * 1e5 / slope}
     for end in ("2.5e-7", "5e-7"):
-        found = deck.run(settings={**settings, "Time/End": end}
+        found = deck.run(settings={**settings, "Time stepping/End time": end}
                          ).summary["point_1"]
         for time, d, value, third in VALUES:
             if time == end:

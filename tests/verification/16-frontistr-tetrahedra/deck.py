@@ -142,7 +142,7 @@ def body(number, *lines):
 OUTPUT = section("Output", "Nodal values = true")
 LEVEL = section("Refinement", "Level = 0")
 NODES = section("Method", "Discretisation = node to segment",
-                "Sliding = small")
+                "Contact geometry = reference")
 
 
 def solve_tied(deck, name, nodes, n_nodes):
