@@ -235,7 +235,7 @@ membrane = p.write("peak.prm", "set Scene = obstacle\nset Dimension = 2\n"
                    + section("Membrane", "Load = -1")
                    + section("Contact", f"Obstacle = {peak}")
                    + section("Refinement", "Level = 3"))
-summary = expect(run(membrane), 3, "ABUT-F37", "refine the mesh")
+summary = expect(run(membrane), 3, "ABUT-F37", "Refine the mesh")
 p.expect(summary["active"] == 0 and summary["missed_depth"] > 0.3,
          "no node of the coarse mesh is below the peak")
 if not p.short:
