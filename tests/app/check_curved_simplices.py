@@ -8,6 +8,7 @@ import signal
 import subprocess
 import time
 
+import vtu
 from block_scene import section
 from program import Program
 from simplices import box
@@ -140,6 +141,20 @@ def check_contact():
              f"tubes in contact: displacement and pressure wrong by {errors}")
 
 
+def check_pressures_at_nodes():
+    """Corner functions of curved facets have integrals near 0: forces divided
+    by them would be pressures of 1e5."""
+    summary, _ = p.solve("connecting-rod.prm")
+    pressures = [value for piece in vtu.pieces(p.folder
+                                               / "out/contact_0000.0.vtu")
+                 for value in piece.fields["pressure"]]
+    largest = summary["pair_1_pressure"]
+    p.expect(.3 * largest < max(pressures) < 1.05 * largest
+             and min(pressures) > -.1 * largest,
+             f"pressures at nodes from {min(pressures)} to {max(pressures)}, "
+             f"largest of the pair {largest}")
+
+
 def check_degree_1():
     p.write("tube.msh", ring((2, 4), INSIDE, OUTSIDE).curved(around))
     p.write("tube.prm", scene(2, tube(1, "tube.msh", SYMMETRY,
@@ -187,5 +202,6 @@ check_patch()
 check_restart()
 check_tube()
 check_contact()
+check_pressures_at_nodes()
 check_degree_1()
 p.finish()

@@ -14,6 +14,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -38,9 +39,11 @@ namespace abut::app
         relevant = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler);
       }
 
-      /** Integrals of the shape functions over the contact boundary. */
+      /** Integrals of @p of_value at the shape functions over the contact
+       * boundary. */
       la::Vector weights(const dealii::AffineConstraints<double> &hanging,
-                         const Materials<dim> &materials) const
+                         const Materials<dim> &materials,
+                         const std::function<double(double)> &of_value) const
       {
         const auto points_of = shim::face_values(
             mapping, dof_handler, shim::face_mass_rule<dim>,
@@ -58,7 +61,7 @@ namespace abut::app
               local.reinit(dofs.size());
               for (unsigned int i = 0; i < dofs.size(); ++i)
                 for (unsigned int q = 0; q < points.n_quadrature_points; ++q)
-                  local[i] += points.shape_value(i, q) * points.JxW(q)
+                  local[i] += of_value(points.shape_value(i, q)) * points.JxW(q)
                               * material.measure(points.quadrature_point(q));
               versions::distribute_local_to_global(hanging, local, dofs, open);
             });
@@ -162,6 +165,11 @@ namespace abut::app
       dealii::IndexSet relevant;
       const MPI_Comm communicator;
     };
+
+    /** Least share of the integral of |phi| for a force per area. It is 4/9 at
+     * corners of quadratic quadrilaterals, 0 at corners of straight quadratic
+     * triangles, and some hundredths of curved ones. */
+    const double nothing = 0.1;
   } // namespace
 
   template <int dim>
@@ -175,8 +183,10 @@ namespace abut::app
                    const la::Vector &force, const la::Vector *status)
   {
     const Recovery<dim> recovery(mapping, dof_handler, contact);
-    const la::Vector weights = recovery.weights(hanging, materials);
-    const double nothing = 1e-12 * weights.linfty_norm();
+    const la::Vector weights = recovery.weights(
+        hanging, materials, [](const double phi) { return phi; });
+    const la::Vector magnitudes = recovery.weights(
+        hanging, materials, [](const double phi) { return std::abs(phi); });
     la::Vector traction = recovery.vector();
     la::Vector known = recovery.vector();
     const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
@@ -185,7 +195,8 @@ namespace abut::app
       const bool is_free = !constraints.is_constrained(owned.nth_index_in_set(
           static_cast<dealii::types::global_dof_index>(i)));
       const bool is_open = status != nullptr && la::data(*status)[i] == 0.;
-      if (la::data(weights)[i] <= nothing || !(is_free || is_open))
+      if (la::data(weights)[i] <= nothing * la::data(magnitudes)[i]
+          || !(is_free || is_open))
         continue;
       la::data(known)[i] = 1.;
       if (is_free)

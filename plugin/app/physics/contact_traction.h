@@ -24,9 +24,10 @@ namespace abut::app
    * At a node with shape function phi the result is force / (integral of phi
    * over the contact boundary), which for dual multipliers is the multiplier
    * itself. Where a component is constrained the force is a reaction of the
-   * support too; there, and where the integral of phi is nothing, the mean of
-   * the other nodes of the facets around takes its place. Where all rows of
-   * the node are open, nothing presses there, whatever the support does.
+   * support too; there, and where the integral of phi is small relative to that
+   * of |phi| (corners of quadratic triangles), the mean of the other nodes of
+   * the facets around takes its place. Where all rows of the node are open,
+   * nothing presses there, whatever the support does.
    *
    * @param constraints all of the problem, closed
    * @param hanging the hanging nodes alone, closed
@@ -38,7 +39,7 @@ namespace abut::app
    * or null: not known
    * @return the field with ghosts, 0 off the contact boundaries.
    *
-   * Collective. Two passes over the cells at the boundary. */
+   * Collective. Three passes over the cells at the boundary. */
   template <int dim>
   la::Vector
   contact_traction(const dealii::Mapping<dim> &mapping,
