@@ -437,7 +437,7 @@ def check_unseen():
     # Its centre comes below the surface in one step.
     run("tetrahedra.prm", {"Obstacle 1/Radius": 0.002, "Refinement/Adaptive "
                            "cycles": 0, "Obstacle 1/Centre": "0, 0, 0.002"},
-        3, ("ABUT-F37", "has no constraint"))
+        3, ("ABUT-F37", "without a constraint"))
 
 
 def check_surfaces():

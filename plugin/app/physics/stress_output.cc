@@ -119,6 +119,13 @@ namespace abut::app
 
   namespace
   {
+    bool is_finite(const std::vector<double> &values)
+    {
+      return std::all_of(values.begin(), values.end(),
+                         [](const double value)
+                         { return std::isfinite(value); });
+    }
+
     template <int dim>
     void add_stresses(const dealii::Mapping<dim> &mapping,
                       const dealii::DoFHandler<dim> &dof_handler,
@@ -147,15 +154,25 @@ namespace abut::app
         const auto &dofs = means.nodes(cell);
         const Material<dim> &material = of_cells.at(cell);
         const double volume = cell->measure();
+        // A cell that is inverted at a corner has no stress there: the mean of
+        // its other corners.
+        std::vector<std::vector<double>> stress(dofs.size());
+        std::vector<double> sum(n_stresses<dim>(), 0.);
+        unsigned int n_known = 0;
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
-          const std::vector<double> stress = components(
+          stress[i] = components(
               material.stress(du[i], u[i], points.quadrature_point(i)));
-          // A cell that is inverted at this corner has no stress there.
-          if (std::all_of(stress.begin(), stress.end(),
-                          [](const double s) { return std::isfinite(s); }))
-            means.add(dofs[i], volume, stress);
+          if (!is_finite(stress[i]))
+            continue;
+          ++n_known;
+          for (std::size_t c = 0; c < sum.size(); ++c)
+            sum[c] += stress[i][c];
         }
+        for (double &value : sum)
+          value /= std::max(n_known, 1u);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          means.add(dofs[i], volume, is_finite(stress[i]) ? stress[i] : sum);
       }
     }
   } // namespace
