@@ -65,7 +65,7 @@ def from_repository(app, docname, source):
     math, and links may leave the folder of documents, where they are names of files
     in the site."""
     text = re.sub(r"^```math\n(.*?)^```$", r"$$\n\1$$", source[0], flags=re.M | re.S)
-    source[0] = re.sub(r"\[([^\]]+)\]\((?:\.\./)+(?:include|plugin|tests|prm)/[^)]*\)",
+    source[0] = re.sub(r"\[([^\]]+)\]\((?:\.\./)+(?:(?:include|plugin|tests|prm)/[^)]*|CONTRIBUTING\.md)\)",
                        r"`\1`", text)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Forces and moments on the two sides of a pair: round-off, but for the
 moments of mortar on curved surfaces, which are of second order (the table in
-doc/coupling.md)."""
+doc/develop/coupling.md)."""
 import math
 
 from program import Program

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Each page of doc is in one tree of doc/contents.md, without which the site fails,
-and each entry there is a page."""
+and each entry there is a page. Development notes are in the tree of their index."""
 import pathlib
 import re
 import sys
@@ -15,8 +15,9 @@ def main():
                for tree in re.findall(r"^```\{toctree\}$(.*?)^```$", text, re.M | re.S)
                for line in tree.split("\n") if line and not line.startswith(":")]
     pages = [str(page.relative_to(DOC))[:-3] for page in DOC.rglob("*.md")
-             if page.relative_to(DOC).parts[0] not in ("examples", "README.md",
+             if page.relative_to(DOC).parts[0] not in ("develop", "examples", "README.md",
                                                        "contents.md")]
+    pages.append("develop/index")
     faults = [f"{page}.md is in no tree of doc/contents.md"
               for page in sorted(set(pages) - set(entries))]
     faults += [f"doc/contents.md: there is no page {entry}"

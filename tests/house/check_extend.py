@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""doc/extend.md says which files an addition touches: it must be all that name
+"""doc/develop/extend.md says which files an addition touches: it must be all that name
 the example. And what tables are for is not asked by number elsewhere."""
 import pathlib
 import re
@@ -27,7 +27,7 @@ def sources():
 
 def rows():
     """(what, files, expression) of each row of the table."""
-    for line in (ROOT / "doc/extend.md").read_text().splitlines():
+    for line in (ROOT / "doc/develop/extend.md").read_text().splitlines():
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)][1:-1]
         if len(cells) != 4 or not cells[3].startswith("`"):
             continue
@@ -44,9 +44,9 @@ def main():
         found = {name for name, text in texts.items() if expression.search(text)}
         print(f"{what}: {len(found)} files")
         for name in sorted(found - files):
-            print(f"FAILED: {name} knows it, too; doc/extend.md does not say so")
+            print(f"FAILED: {name} knows it, too; doc/develop/extend.md does not say so")
         for name in sorted(files - found):
-            print(f"FAILED: {name} does not know it; doc/extend.md says so")
+            print(f"FAILED: {name} does not know it; doc/develop/extend.md says so")
         good &= found == files and len(files) <= 5
     for name, text in texts.items():
         for k, line in enumerate(text.splitlines(), 1):
@@ -56,7 +56,7 @@ def main():
                 print(f"FAILED: {name}:{k} asks for one entry: {line.strip()}")
                 good = False
     if n < 6:
-        print("FAILED: doc/extend.md has no table")
+        print("FAILED: doc/develop/extend.md has no table")
     return 0 if good and n >= 6 else 1
 
 

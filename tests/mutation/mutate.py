@@ -15,7 +15,7 @@ stopped and goes on.
 --again   tries those again that no test has found
 --report  prints the table only
 
-One processor is used. The table is that of doc/tests.md.
+One processor is used. The table is that of doc/develop/tests.md.
 """
 import argparse
 import collections
