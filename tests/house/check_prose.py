@@ -14,10 +14,34 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEAN, LONG, SHARE = 20, 35, 0.05
 # Documents before the manual, which are to be rewritten or moved.
-NOTEBOOK = set("""README c-interface changes charts dynamics economy failures
-finite-strain friction geometry inf-sup install large-sliding mesh-files methods
-parameters peers performance point-mass search-command contact-search solid solvers
-step-41 step-42 your-own-law your-program""".split())
+NOTEBOOK = set("""
+README
+c-interface
+charts
+dynamics
+economy
+failures
+finite-strain
+friction
+geometry
+inf-sup
+install
+large-sliding
+mesh-files
+methods
+parameters
+peers
+performance
+point-mass
+search-command
+contact-search
+solid
+solvers
+step-41
+step-42
+your-own-law
+your-program
+""".split())
 
 WORDS = [(re.compile(pattern, re.I), use) for pattern, use in (
     (r"\b(?:is|are|was|be) told\b|\btells?\b|\bknows\b|\basks\b",

@@ -69,7 +69,7 @@ RUN = {
     "external_work": ("work of the loads", "energy"),
     "initial_energy": ("initial energy", "energy"),
     "energy_balance": ("balance of energy", "energy"),
-    "energy_gain": ("energy gained by the scheme", "energy"),
+    "energy_gain": ("part of the energy gained by the scheme", ""),
     "energy_loss": ("part of the energy lost", ""),
     "energy_lost_in_impacts": ("energy lost in impacts", "energy"),
     "l2_error": ("error of the displacement, L2 norm", ""),
