@@ -31,7 +31,6 @@ mesh-files
 methods
 parameters
 peers
-performance
 point-mass
 search-command
 contact-search
