@@ -30,7 +30,6 @@ large-sliding
 mesh-files
 methods
 parameters
-peers
 point-mass
 search-command
 contact-search
