@@ -24,15 +24,11 @@ failures
 finite-strain
 friction
 geometry
-inf-sup
 install
 large-sliding
-mesh-files
 methods
 parameters
 point-mass
-search-command
-contact-search
 solid
 solvers
 step-41
