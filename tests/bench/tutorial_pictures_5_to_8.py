@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The pictures of the tutorials impact, deal-ii-program, law-in-c and tetrahedra, from
+runs of the scenes that stand in the pages. The field of step-8 needs the .vtk file
+that the program of that page writes:
+
+    tests/bench/tutorial_pictures_5_to_8.py build/release/abut [--vtk solution-4.vtk]"""
+import argparse
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "plugin/tools"), str(ROOT / "tests/docs")]
+
+import numpy  # noqa: E402
+from matplotlib import patches, tri  # noqa: E402
+
+from abut_tools import style  # noqa: E402
+from run_page import steps  # noqa: E402
+
+
+def blocks(page, folder):
+    """Write the named blocks of a page into the folder."""
+    text = (ROOT / "doc/tutorials" / page).read_text(encoding="utf-8")
+    for _, intent, _, name, body in steps(text):
+        if intent in ("check", "show", "compile") and name:
+            (folder / name).write_text(body, encoding="utf-8")
+
+
+def run(abut, scene, output, *settings):
+    """The table of steps of a run, whatever its exit code, by columns."""
+    command = [abut, "run", scene, "--quiet", "--output", output, "--set",
+               "Output/Fields=false"]
+    for setting in settings:
+        command += ["--set", setting]
+    subprocess.run(command, cwd=scene.parent, check=False, stderr=subprocess.DEVNULL)
+    with open(output / "levels.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {key: numpy.array([float(row[key] or 0) for row in rows]) for key in rows[0]}
+
+
+def wall(axes, x, low, high, depth, **more):
+    """A rigid wall to the left of x."""
+    axes.add_patch(patches.Rectangle((x - depth, low), depth, high - low, facecolor=style.PALE,
+                                     edgecolor=style.GREY, hatch="////", linewidth=0.6,
+                                     **more))
+
+
+def arrow(axes, start, end, **more):
+    axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "linewidth": 1.0,
+                                              "color": style.BLACK, **more})
+
+
+def impact_sketch(folder):
+    figure, [(left, right)] = style.figure(style.PAGE, 0.36, columns=2)
+    left.set_axis_off()
+    left.grid(False)
+    wall(left, 0, -0.3, 0.5, 0.12)
+    left.add_patch(patches.Rectangle((0.25, 0), 1, 0.2, facecolor=style.SKY,
+                                     edgecolor=style.BLACK, linewidth=0.8))
+    arrow(left, (1.05, 0.1), (0.8, 0.1))
+    left.text(0.72, 0.1, "$v$", va="center")
+    left.text(0.35, 0.25, r"$E,\ \rho,\ A$")
+    for low, high, text, y in ((0, 0.25, "gap", -0.12), (0.25, 1.25, "$L$", -0.12)):
+        left.annotate("", (high, y), (low, y),
+                      arrowprops={"arrowstyle": "<->", "linewidth": 0.7})
+        left.text((low + high) / 2, y - 0.04, text, ha="center", va="top")
+    left.set_xlim(-0.15, 1.35)
+    left.set_ylim(-0.4, 0.6)
+    right.add_patch(patches.Polygon([(0, 0), (1, 1), (0, 2)], facecolor=style.SKY,
+                                    edgecolor=style.BLUE))
+    right.text(0.25, 1, r"at rest, stress $-\rho c v$", va="center", fontsize=7)
+    right.text(0.97, 0.25, "$-v$", ha="right")
+    right.text(0.97, 1.7, "$+v$", ha="right")
+    right.set_xlim(0, 1.02)
+    right.set_ylim(-0.3, 2.4)
+    right.set_xlabel("place in the bar / $L$")
+    right.set_ylabel("time since impact / $(L/c)$")
+    style.save(figure, folder, "tutorial-impact-sketch")
+
+
+def impact(abut, folder):
+    impact_sketch(folder)
+    with tempfile.TemporaryDirectory() as work:
+        work = pathlib.Path(work)
+        blocks("impact.md", work)
+        series = [("trapezoid, consistent mass", "trapezoid", "consistent",
+                   {"color": style.VERMILION, "linewidth": 0.5}),
+                  ("hht", "hht", "auto", style.line_style(0)),
+                  ("contact stabilised", "contact stabilised", "auto", style.line_style(2))]
+        figure, [all_axes] = style.figure(style.PAGE, 0.34, columns=3)
+        force, energy, close = all_axes
+        for name, scheme, mass, look in series:
+            table = run(abut, work / "bar.prm", work / name.replace(" ", "-"),
+                        f"Time stepping/Scheme={scheme}",
+                        f"Time stepping/Mass matrix={mass}")
+            force.plot(1e3 * table["time"], 1e-6 * table["pair_1_force_x"], label=name,
+                       **look)
+            for axes in (energy, close):
+                axes.plot(1e3 * table["time"], table["balance"] / 1962.5,
+                          **{**look, "linewidth": 1.2})
+        force.plot([0, 0.1, 0.1, 0.4866831, 0.4866831, 0.6],
+                   [0, 0, 4.06017, 4.06017, 0, 0], color=style.BLACK, linewidth=0.8,
+                   label="closed form")
+        force.set_ylabel("contact force [MN]")
+        energy.set_ylabel("energy / energy at the start")
+        close.set_ylim(0.988, 1.002)
+        for axes in all_axes:
+            axes.set_xlabel("time [ms]")
+        style.letters(all_axes)
+        style.legend_above(figure, force.get_legend_handles_labels()[0], 4)
+        style.save(figure, folder, "tutorial-impact")
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("abut", type=pathlib.Path)
+    arguments.add_argument("--vtk", type=pathlib.Path)
+    arguments.add_argument("--folder", type=pathlib.Path, default=ROOT / "doc/pictures")
+    arguments = arguments.parse_args()
+    abut = arguments.abut.resolve()
+    impact(abut, arguments.folder)
+
+
+if __name__ == "__main__":
+    main()
