@@ -284,8 +284,8 @@ for name in ("contact_impulse[0]", "energy_gain"):
 # The page has the parameters that the command prints.
 result = p.call("chart", "--parameters")
 p.expect(result.returncode == 0 and "**Error/Quantity**" in result.stdout
-         and result.stdout in (p.source / "doc/charts.md").read_text(),
-         "doc/charts.md is not what abut chart --parameters prints")
+         and result.stdout in (p.source / "doc/commands.md").read_text(),
+         "doc/commands.md is not what abut chart --parameters prints")
 
 # Time is the median of the repeats, of processor time without what a run
 # measures and writes.
