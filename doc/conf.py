@@ -19,8 +19,7 @@ extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx_copybutton",
 source_suffix = {".md": "markdown"}
 # Trees of contents are no reading matter in the repository; index.md is.
 root_doc = "contents"
-# README.md lists the documents for readers of the repository.
-exclude_patterns = ["README.md", "examples"]
+exclude_patterns = ["examples"]
 nitpicky = True
 
 myst_enable_extensions = ["dollarmath", "amsmath", "html_image"]

@@ -17,21 +17,16 @@ MEAN, LONG, SHARE = 20, 35, 0.05
 GENERATED = {"commands", "failures", "parameters"}  # by the program
 # Documents before the manual, which are to be rewritten or moved.
 NOTEBOOK = set("""
-README
-c-interface
 dynamics
 economy
 finite-strain
 friction
 geometry
-install
 large-sliding
 methods
 point-mass
 solid
 solvers
-step-41
-step-42
 your-own-law
 your-program
 """.split())

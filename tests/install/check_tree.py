@@ -64,7 +64,7 @@ def check_c(tree, scratch):
     is that of doc/c-interface.md."""
     examples = tree.prefix / "share/doc/abut/examples/c-interface"
     text = (tree.prefix / "share/doc/abut/c-interface.md").read_text()
-    line = text.split("```sh\n")[1].split("```")[0]
+    line = text.split("```sh {show}\n")[1].split("```")[0]
     program = scratch / "program"
     shutil.copy(examples / "bar_on_a_bed.c", scratch / "program.c")
     tree.run("sh", "-euc", line, cwd=scratch)
