@@ -7,6 +7,7 @@ that the program of that page writes:
     tests/bench/tutorial_pictures_5_to_8.py build/release/abut [--vtk solution-4.vtk]"""
 import argparse
 import csv
+import json
 import pathlib
 import subprocess
 import sys
@@ -115,6 +116,54 @@ def impact(abut, folder):
         style.save(figure, folder, "tutorial-impact")
 
 
+def law(abut, folder):
+    figure, [(sketch, chart)] = style.figure(style.PAGE, 0.42, columns=2)
+    sketch.set_axis_off()
+    sketch.add_patch(patches.Rectangle((0, 0), 2, 1, facecolor=style.PALE,
+                                       edgecolor=style.BLACK, linewidth=0.8))
+    sketch.add_patch(patches.Rectangle((0, 1), 2, 0.12, facecolor=style.ORANGE,
+                                       edgecolor=style.BLACK, linewidth=0.8))
+    sketch.add_patch(patches.Rectangle((-0.25, 1.25), 2.5, 0.2, facecolor=style.PALE,
+                                       edgecolor=style.GREY, hatch="////", linewidth=0.6))
+    for x in numpy.linspace(0.1, 1.9, 10):
+        sketch.add_patch(patches.Polygon([(x, 0), (x - 0.07, -0.12), (x + 0.07, -0.12)],
+                                         facecolor="white", edgecolor=style.BLACK,
+                                         linewidth=0.6))
+    arrow(sketch, (1, 1.8), (1, 1.45))
+    for x, y, text in ((1.08, 1.62, "$d$"), (1, 0.5, "block: $E$"),
+                       (2.08, 1.02, "coating: $k,\\ c$")):
+        sketch.text(x, y, text)
+    sketch.set_xlim(-0.4, 2.9)
+    sketch.set_ylim(-0.3, 1.9)
+    sketch.set_aspect("equal")
+    young, depth, thickness = 1000.0, 0.01, 0.001
+    gap = numpy.linspace(-0.001, 0.0012, 200)
+    with tempfile.TemporaryDirectory() as work:
+        work = pathlib.Path(work)
+        blocks("law-in-c.md", work)
+        subprocess.run(["cc", "-shared", "-fPIC", f"-I{ROOT}/include", "power_law.c", "-o",
+                        "power_law.so", "-lm"], cwd=work, check=True)
+        for look, (k, m) in enumerate(((5e3, 1), (5e6, 2))):
+            chart.plot(1e3 * gap, k * numpy.maximum(thickness - gap, 0) ** m,
+                       label=f"law, $m$ = {m}", **style.line_style(look))
+            run(abut, work / "coating.prm", work / f"{m}",
+                f"Method/Law parameters=stiffness: {k}, thickness: {thickness}, power: {m}",
+                "Output/Expected=pair_1_force[1]: -20")
+            summary = json.loads((work / f"{m}/summary.json").read_text())
+            force = -summary["pair_1_force"][1]
+            chart.plot(1e3 * -summary["max_penetration"], force / 2, color=style.BLACK,
+                       marker=style.MARKERS[look], linestyle="", markersize=5,
+                       label=f"run, $m$ = {m}")
+    chart.plot(1e3 * gap, young * (depth + gap), color=style.GREY, linewidth=0.9,
+               label="block, $E(d + g)$")
+    chart.set_xlabel("gap $10^3\\, g$")
+    chart.set_ylabel("pressure")
+    chart.set_ylim(-0.5, 19)
+    style.letters((sketch, chart))
+    style.legend_above(figure, chart.get_legend_handles_labels()[0], 5)
+    style.save(figure, folder, "tutorial-law")
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("abut", type=pathlib.Path)
@@ -123,6 +172,7 @@ def main():
     arguments = arguments.parse_args()
     abut = arguments.abut.resolve()
     impact(abut, arguments.folder)
+    law(abut, arguments.folder)
 
 
 if __name__ == "__main__":

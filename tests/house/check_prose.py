@@ -27,7 +27,6 @@ methods
 point-mass
 solid
 solvers
-your-own-law
 your-program
 """.split())
 
