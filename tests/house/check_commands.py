@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # With arguments in the text; by itself in a block, which is indented or fenced.
 COMMANDS = [re.compile(r"`((?:tests|\.ci)/[\w./-]+) [^`]"),
-            re.compile(r"^(?:    )?((?:tests|\.ci)/[\w./-]+)(?: |$)", re.M)]
+            re.compile(r"^(?:    |[A-Z]=')?((?:tests|\.ci)/[\w./-]+)(?: |'|$)", re.M)]
 
 
 def fault(name):

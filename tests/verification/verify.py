@@ -254,10 +254,18 @@ HEAD = """# Verification: decks of other programs
 
 Written by `tests/verification/verify.py --report doc/verification.md`; do not edit.
 
-Problems of other programs, with the values that these print. Geometry, loads and values are those of the
-decks; the meshes are generated from them. The scenes are in `tests/verification`. Tolerances follow one rule: 1e-5 for the
-same element and law of contact. For another element or a soft penalty it is the spread of the methods of other programs. The test
-`verification` solves the quick decks and compares them with this page, `verification-long` the others.
+This page compares Abut with values that other programs print for problems of their own. Each problem is a *deck*. Geometry, loads
+and values are those of the deck, and the mesh is generated from the geometry. A folder of `tests/verification` has the scene, the
+source and the values of each deck. [Closed forms](#closed-forms) are at the end of the page.
+
+| verdict | meaning |
+|---|---|
+| agrees | the difference is at most the tolerance: 1e-5 for the same element and law of contact, more where the deck states why |
+| inside the spread | another element or a soft penalty: the value is within the spread of the methods of other programs |
+| differs | the value is not met; a third program or a closed form decides, and the deck has the reason |
+
+`tests/verification/verify.py DECK` solves a deck. The test `verification` solves the quick decks and compares them with this page,
+`verification-long` solves the others.
 """
 
 CLOSED = """## Closed forms
