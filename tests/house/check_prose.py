@@ -19,12 +19,10 @@ REFERENCE = GENERATED | {"output", "verification"}  # not a part of the guide
 # Documents before the manual, which are to be rewritten or moved.
 NOTEBOOK = set("""
 dynamics
-economy
 finite-strain
 friction
 geometry
 large-sliding
-methods
 point-mass
 solid
 solvers
