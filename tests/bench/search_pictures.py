@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pictures of doc/search.md from the tables of search_bench: search.svg, time
+"""The pictures of doc/contact-search.md from the tables of search_bench: search.svg, time
 against facets, and search_bucket.svg, time against bucket size. Needs Matplotlib.
 
     tests/bench/search_pictures.py FOLDER
