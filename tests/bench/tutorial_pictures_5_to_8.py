@@ -9,6 +9,7 @@ import argparse
 import csv
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,9 +18,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "plugin/tools"), str(ROOT / "tests/docs")]
 
 import numpy  # noqa: E402
-from matplotlib import patches, tri  # noqa: E402
+from matplotlib import patches  # noqa: E402
+from matplotlib.collections import PolyCollection  # noqa: E402
 
-from abut_tools import style  # noqa: E402
+from abut_tools import geometry, style  # noqa: E402
+from abut_tools.run_folder import RunFolder  # noqa: E402
 from run_page import steps  # noqa: E402
 
 
@@ -33,9 +36,8 @@ def blocks(page, folder):
 
 def run(abut, scene, output, *settings):
     """The table of steps of a run, whatever its exit code, by columns."""
-    command = [abut, "run", scene, "--quiet", "--output", output, "--set",
-               "Output/Fields=false"]
-    for setting in settings:
+    command = [abut, "run", scene, "--quiet", "--output", output]
+    for setting in ("Output/Fields=false", *settings):
         command += ["--set", setting]
     subprocess.run(command, cwd=scene.parent, check=False, stderr=subprocess.DEVNULL)
     with open(output / "levels.csv", encoding="utf-8") as file:
@@ -164,6 +166,64 @@ def law(abut, folder):
     style.save(figure, folder, "tutorial-law")
 
 
+def finger_shape(axes, folder):
+    """The finger from the side, before and after, coloured by the stress."""
+    mesh = RunFolder(folder).last_field("fields")
+    faces = sorted(geometry.surface(mesh),
+                   key=lambda face: -mesh.points[face][:, 1].mean())
+    stress = mesh.fields["von_mises_stress"].astype(float).ravel()
+    moved = mesh.points + mesh.fields["displacement"]
+    axes.add_collection(PolyCollection([mesh.points[face][:, [0, 2]] for face in faces],
+                                       facecolors=style.PALE, edgecolors="none"))
+    shown = PolyCollection([moved[face][:, [0, 2]] for face in faces],
+                           array=numpy.array([stress[face].mean() for face in faces]),
+                           cmap=style.FIELD_MAP, edgecolors="#00000060", linewidths=0.2,
+                           rasterized=True)
+    axes.add_collection(shown)
+    axes.get_figure().colorbar(shown, ax=axes, shrink=0.7, aspect=30, pad=0.02,
+                               label="von Mises stress [MPa]", location="bottom")
+    wall(axes, 0, -0.6, 1.1, 0.5)
+    axes.add_patch(patches.Rectangle((7.6, -0.6), 2.8, 0.5, facecolor=style.PALE,
+                                     edgecolor=style.GREY, hatch="////", linewidth=0.6))
+    arrow(axes, (9, -1.6), (9, -0.65))
+    axes.text(9.2, -1.3, "$d$")
+    axes.annotate("", (9, 1.25), (0, 1.25),
+                  arrowprops={"arrowstyle": "<->", "linewidth": 0.7})
+    axes.text(4.5, 1.35, "$L$", ha="center")
+    axes.set_xlim(-0.7, 10.6)
+    axes.set_ylim(-1.8, 2.0)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def finger(abut, folder):
+    beam = 0.9408
+    figure, [(shape, chart)] = style.figure(style.PAGE, 0.4, columns=2,
+                                            width_ratios=(3, 2))
+    with tempfile.TemporaryDirectory() as work:
+        work = pathlib.Path(work)
+        blocks("tetrahedra.md", work)
+        shutil.copy(ROOT / "doc/tutorials/finger.msh", work)
+        for degree, levels in ((1, (0, 1, 2)), (2, (0, 1))):
+            points = []
+            for level in levels:
+                table = run(abut, work / "finger.prm", work / f"{degree}-{level}",
+                            f"Solid/Degree={degree}", f"Refinement/Level={level}")
+                points.append((table["dofs"][-1], table["contact_force"][-1]))
+            chart.plot(*zip(*points), label=f"tetrahedra of degree {degree}",
+                       **style.curve_style(degree - 1))
+        run(abut, work / "finger.prm", work / "shape", "Output/Fields=true")
+        finger_shape(shape, work / "shape")
+    chart.axhline(beam, color=style.BLACK, linewidth=0.8, label="beam")
+    style.logarithmic(chart.xaxis)
+    chart.set_ylim(0, 3.2)
+    chart.set_xlabel("unknowns")
+    chart.set_ylabel("contact force [N]")
+    chart.legend()
+    style.letters((shape, chart))
+    style.save(figure, folder, "tutorial-finger")
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("abut", type=pathlib.Path)
@@ -173,6 +233,7 @@ def main():
     abut = arguments.abut.resolve()
     impact(abut, arguments.folder)
     law(abut, arguments.folder)
+    finger(abut, arguments.folder)
 
 
 if __name__ == "__main__":
