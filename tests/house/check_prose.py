@@ -21,11 +21,9 @@ NOTEBOOK = set("""
 dynamics
 finite-strain
 friction
-geometry
 large-sliding
 point-mass
 solid
-solvers
 your-program
 """.split())
 
