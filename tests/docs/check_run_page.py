@@ -22,10 +22,17 @@ end
 ```sh {run}
 abut run mass.prm --quiet
 echo u 1.0000001 end
+echo after 0.02 s mesh 1
 ```
 
 ```text {output}
 u 1 end
+after 3.10 s  mesh 1
+```
+
+WRONG
+```text {output}
+after 0.02 s  mesh 2
 ```
 
 WRONG
@@ -103,7 +110,7 @@ def main():
     right = found == wanted and done.returncode == 1
     for text in NO_INTENT:
         right = right and result(text, abut).returncode == 1
-    return 0 if right and len(wanted) == 8 else 1
+    return 0 if right and len(wanted) == 9 else 1
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ The first line of each block of code gives its intent:
 
     ```sh {run}         commands; the exit code must be 0, or N with {run N}
     ```text {output}    what the commands before have printed: lines of it in their
-                        order, words as they are, numbers to 1e-5 of their size
+                        order, words as they are, numbers to 1e-5 of their size,
+                        seconds ("0.02 s") of any size
     ```prm {check}      a scene, read by `abut check`
     ```c {compile}      a file in C11, compiled with the public headers
     ```text {show}      for reading only
@@ -64,6 +65,7 @@ def steps(text):
 
 
 def words(line):
+    line = re.sub(r"\b\d+\.\d+ s(?=\s|$)", "TIME s", line)
     return [word for word in re.split(r"[\s,\[\]]+", line) if word]
 
 
