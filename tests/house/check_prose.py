@@ -23,7 +23,6 @@ finite-strain
 friction
 large-sliding
 point-mass
-solid
 your-program
 """.split())
 
