@@ -23,8 +23,8 @@
  *     g_j(u) = g_j - n_j . (sum_l D_jl / W_j u_l - sum_l M_jl / W_j u_l)
  *
  * Dual mortar has the gaps of nodes instead, sum_l D_jl / W_j g_l, because its
- * psi_j are negative in places (doc/develop/coupling.md, "Gaps of dual mortar"); but
- * not where points move.
+ * psi_j are negative in places (doc/develop/coupling.md, "Gaps of dual
+ * mortar"); but not where points move.
  *
  * Both sums of coefficients are one, and the weights of all points add up to
  * the covered area.
