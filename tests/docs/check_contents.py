@@ -23,6 +23,10 @@ def main():
                for entry in sorted(set(entries) - set(pages))]
     faults += [f"doc/contents.md: {entry} is there twice"
                for entry in sorted(set(entries)) if entries.count(entry) > 1]
+    index = (DOC / "develop/index.md").read_text(encoding="utf-8")
+    faults += [f"doc/develop/index.md does not list {page.name}"
+               for page in sorted((DOC / "develop").glob("*.md"))
+               if f"]({page.name})" not in index and page.name != "index.md"]
     print(*faults, sep="\n")
     return 1 if faults else 0
 
