@@ -5,7 +5,7 @@ schemes that are defaults somewhere, and point masses by velocity level. Of
 each motion: the energy balance is never above that of the start by more than
 the scheme's bound, momentum is that of the start and what acted on the
 bodies, and nothing is inside of anything. Prints a row for each run, of which
-the table in doc/dynamics.md is made."""
+the table in doc/develop/dynamics.md is made."""
 import math
 import random
 

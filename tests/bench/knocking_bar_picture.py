@@ -4,7 +4,7 @@
 
 Runs prm/dynamics-periodic-bar.prm over 100 periods with each scheme and half of
 its step, draws kinetic + strain + contact energy at the end of each period by
-the exact 1/8, and prints the table of doc/dynamics.md. Needs Matplotlib.
+the exact 1/8, and prints the table of doc/develop/dynamics.md. Needs Matplotlib.
 
     tests/bench/knocking_bar_picture.py build/release/abut picture.svg
 """
