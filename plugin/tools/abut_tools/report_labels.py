@@ -50,7 +50,7 @@ RUN = {
     "n_touches": ("touches", ""),
     "max_penetration": ("largest penetration", "length"),
     "allowed_penetration": ("allowed penetration", "length"),
-    "max_complementarity": ("largest product of pressure and gap", ""),
+    "max_complementarity": ("error of the complementarity condition", ""),
     "active": ("points in contact", ""),
     "constraints": ("contact points", ""),
     "lambda": ("Lagrange multiplier", ""),
