@@ -4,7 +4,7 @@
 of them above 35 words, and none of the words that the style excludes. Reads
 CONTRIBUTING.md and the pages of doc that are not listed in NOTEBOOK, but development
 notes (doc/develop) and generated pages; code, formulas, tables and headings are no
-sentences. No line of these pages has a date, a machine or an attempt.
+sentences. No line of these and of generated pages has a date, a machine or an attempt.
 
     tests/house/check_prose.py [--table]"""
 import argparse
@@ -130,6 +130,10 @@ def main():
             bad += 1
         for what, sentence in [*findings(text), *diary(text)]:
             print(f"{name}: {what}: {sentence[:150]}")
+            bad += 1
+    for name in sorted(GENERATED):
+        for what, line in diary((ROOT / f"doc/{name}.md").read_text(encoding="utf-8")):
+            print(f"doc/{name}.md: {what}: {line[:150]}")
             bad += 1
     if table:
         print(f"{total} words of prose; the guide has {guide}, with tables, without code")
