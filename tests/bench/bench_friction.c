@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Random dense problems with friction: how many linear systems they take, how
  * many need which cure, how many have which number of answers. Prints the
- * tables of doc/friction.md. */
+ * tables of doc/develop/friction.md. */
 #include "frictional.h"
 
 #include <stdio.h>
