@@ -18,7 +18,6 @@ GENERATED = {"commands", "failures", "parameters"}  # by the program
 REFERENCE = GENERATED | {"output", "verification"}  # not a part of the guide
 # Documents before the manual, which are to be rewritten or moved.
 NOTEBOOK = set("""
-point-mass
 your-program
 """.split())
 
