@@ -298,8 +298,40 @@ def hertz(runs, folder):
     style.save(figure, folder, "tutorial-hertz-error")
 
 
-def friction(_, folder):
+def stick(run, coefficient):
+    """Q/(mu P), and |x| of the last sticking and the first slipping node relative
+    to the half width of the contact."""
+    pull, press = (abs(force) for force in summary(run)["pair_1_force"])
+    half_width = math.sqrt(4 * press * 10 / (math.pi * 210000 / (2 * (1 - 0.3**2))))
+    points = [(abs(float(row["x"])) / half_width, row["status"])
+              for row in table(run / "pair_1.csv") if float(row["pressure"]) > 0]
+    return (pull / (coefficient * press),
+            max((x for x, status in points if status == "1"), default=0),
+            min((x for x, status in points if status == "2"), default=1))
+
+
+def friction(runs, folder):
     sketch_pulled(folder)
+    run = runs.run("pulled", "pulled")
+    runs.draw(run, "tractions", "tutorial-friction-tractions", folder)
+    points = [stick(run, 0.3)] + [
+        stick(runs.run("pulled", f"end-{end}", f"Time stepping/End time={end}",
+                       f"Time stepping/Number of steps={steps}"), 0.3)
+        for end, steps in ((1.25, 5), (1.5, 3), (2, 2))] + [
+        stick(runs.run("pulled", f"mu-{mu}", f"Pair 1/Friction=(t > 1 ? {mu} : 0)"), mu)
+        for mu in (0.25, 0.22, 0.2)]
+    pull, low, high = numpy.array(points).T
+    figure, ((axes,),) = style.figure(style.COLUMN, 0.72)
+    at = numpy.linspace(0, 1, 400)
+    axes.plot(at, numpy.sqrt(1 - at), color=style.BLACK,
+              label=r"$c/a = \sqrt{1 - Q/(\mu P)}$")
+    axes.errorbar(pull, (low + high) / 2, (high - low) / 2, color=style.VERMILION,
+                  linestyle="", marker="", capsize=2.5, elinewidth=1.2, label="Abut")
+    axes.set_xlabel(r"pull / limit $Q/(\mu P)$")
+    axes.set_ylabel("stick / contact $c/a$")
+    axes.set_ylim(0, 1.05)
+    style.legend(axes)
+    style.save(figure, folder, "tutorial-friction-stick")
 
 
 def ironing(_, folder):
