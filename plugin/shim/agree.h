@@ -79,16 +79,6 @@ namespace abut::shim
     throw_everywhere<Error>(communicator, message);
   }
 
-  /** The core's message about a call that failed; empty if it did not. */
-  inline std::string message_of(const abut_context *context,
-                                const abut_status status)
-  {
-    if (status == ABUT_SUCCESS)
-      return "";
-    const std::string message = core_message(context);
-    return message.empty() ? abut_status_text(status) : message;
-  }
-
   /** Throw on all ranks if a call of the core failed on one. Where the core
    * has agreed on the failure, the rank that saw it has the message.
    * Collective. */

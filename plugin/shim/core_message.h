@@ -20,6 +20,16 @@ namespace abut::shim
                           && message.find(' ') > colon;
     return has_name ? message.substr(colon + 2) : message;
   }
+
+  /** Its message about a call that failed; empty if it did not. */
+  inline std::string message_of(const abut_context *context,
+                                const abut_status status)
+  {
+    if (status == ABUT_SUCCESS)
+      return "";
+    const std::string message = context == nullptr ? "" : core_message(context);
+    return message.empty() ? abut_status_text(status) : message;
+  }
 } // namespace abut::shim
 
 #endif

@@ -37,7 +37,7 @@ namespace abut::shim
           samples_per_direction(pair.secondary.everywhere.n_facets, dim - 1));
       std::vector<abut_facet_depth> depths(pair.secondary.n_facets());
       std::int32_t n = 0;
-      check(*pair.data.obstacle,
+      check(points.host().context, *pair.data.obstacle,
             abut_obstacle_in_facets(pair.data.obstacle->handle(),
                                     pair.secondary.surface.get(), &samples.view,
                                     depths.data(), &n));

@@ -70,14 +70,11 @@ namespace abut::shim
   /** Throw the core's message when a call failed. */
   inline void check(const abut_context *context, const abut_status status)
   {
-    const bool has_message =
-        context != nullptr && *abut_context_message(context) != 0;
-    AssertThrow(
-        status == ABUT_SUCCESS,
-        dealii::ExcMessage(coded(
-            status == ABUT_INVALID_MESH ? ABUT_FAILURE_DEGENERATE_FACET
-                                        : ABUT_FAILURE_NONE,
-            has_message ? core_message(context) : abut_status_text(status))));
+    AssertThrow(status == ABUT_SUCCESS,
+                dealii::ExcMessage(coded(status == ABUT_INVALID_MESH
+                                             ? ABUT_FAILURE_DEGENERATE_FACET
+                                             : ABUT_FAILURE_NONE,
+                                         message_of(context, status))));
   }
 
   inline Handle<abut_context> create_context()

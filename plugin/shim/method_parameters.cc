@@ -149,23 +149,26 @@ namespace abut
                  : "lagrange";
     }
 
-    /** A number of the options: its range is the core's for this field. */
+    /** The core's range of a field of the options. */
+    NumberPattern range_of(const char *field)
+    {
+      const abut_limit *limit = abut_strategy_limit(field);
+      AssertThrow(limit != nullptr, dealii::ExcInternalError());
+      return NumberPattern(*limit);
+    }
+
     void declare_number(ParameterHandler &prm, const std::string &name,
                         const double value, const char *field,
                         const parameter::Note &note, const std::string &text)
     {
-      const abut_limit *limit = abut_strategy_limit(field);
-      AssertThrow(limit != nullptr, dealii::ExcInternalError());
       parameter::declare(prm, name, Patterns::Tools::to_string(value),
-                         NumberPattern(*limit), note, text);
+                         range_of(field), note, text);
     }
 
     void declare_penalty(ParameterHandler &prm, const abut_strategy_options &d)
     {
-      const abut_limit *limit = abut_strategy_limit("penalty");
-      AssertThrow(limit != nullptr, dealii::ExcInternalError());
       parameter::declare(
-          prm, "Penalty factor", "auto", OrWord(NumberPattern(*limit), "auto"),
+          prm, "Penalty factor", "auto", OrWord(range_of("penalty"), "auto"),
           parameter::basic("local stiffness", "100"),
           "Stiffness of the contact springs relative to the stiffness of the "
           "contact surface (nitsche: gamma). auto: penalty 50, augmented "

@@ -47,7 +47,7 @@ namespace abut::shim
   {
     const FacetSamples<dim> samples(points, pair, u);
     abut_obstacle_beside beside;
-    check(*pair.data.obstacle,
+    check(points.host().context, *pair.data.obstacle,
           abut_obstacle_narrowest(pair.data.obstacle->handle(),
                                   pair.secondary.surface.get(), &samples.view,
                                   &beside));
@@ -70,7 +70,7 @@ namespace abut::shim
         points.set().obstacles().place_before(number, place);
     const FacetSamples<dim> samples(points, pair, points.made());
     abut_obstacle_beside beside;
-    check(*pair.data.obstacle,
+    check(points.host().context, *pair.data.obstacle,
           abut_obstacle_beside_facet(pair.data.obstacle->handle(),
                                      pair.secondary.surface.get(),
                                      &samples.view, &then[0], &beside));

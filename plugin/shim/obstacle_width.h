@@ -8,12 +8,15 @@
 
 namespace abut::shim
 {
-  /** Throw the message of an obstacle when a call failed. */
+  /** Throw when a call for an obstacle failed: its message, if it is the cause.
+   */
   template <int dim>
-  void check(const RigidObstacle<dim> &obstacle, const abut_status status)
+  void check(const abut_context *context, const RigidObstacle<dim> &obstacle,
+             const abut_status status)
   {
-    if (status != ABUT_SUCCESS)
+    if (status == ABUT_CALLBACK_FAILED || status == ABUT_NOT_FINITE)
       throw ContactError(obstacle.failure());
+    check(context, status);
   }
 
   /** This rank's facets of the secondary of a pair as the core wants them. */

@@ -36,12 +36,10 @@ namespace abut::shim
   } // namespace
 
   template <int dim>
-  void
-  PairExamination<dim>::find_rotations(const std::vector<Direction<dim>> &u,
-                                       const double *row_pressure,
-                                       const std::uint8_t *row_state)
+  void PairExamination<dim>::find_rotations(const NodePositions<dim> &nodes,
+                                            const double *row_pressure,
+                                            const std::uint8_t *row_state)
   {
-    const NodePositions<dim> nodes(points_, u);
     run_everywhere<ContactError>(
         host_.communicator,
         [&]
@@ -56,7 +54,7 @@ namespace abut::shim
                 pair.interface.get(), points_.handle(), &nodes.view,
                 row_pressure, row_state, &pair.rotation);
             if (pair.data.obstacle)
-              check(*pair.data.obstacle, status);
+              check(host_.context, *pair.data.obstacle, status);
             check(host_.context, status);
           }
         });
@@ -81,7 +79,8 @@ namespace abut::shim
     examined_ = u;
     const ObstaclePoses<dim> &poses = points_.set().obstacles();
     const std::vector<RigidPose<dim>> now = poses.now();
-    find_rotations(u, row_pressure, row_state);
+    const NodePositions<dim> nodes(points_, u);
+    find_rotations(nodes, row_pressure, row_state);
     // Distances from an obstacle, or their changes on a path.
     struct Distances
     {
@@ -99,7 +98,6 @@ namespace abut::shim
       pair.narrowest = narrowest_width(points_, pair, u);
     }
     // Motion in this step, and since the point was made there.
-    const NodePositions<dim> nodes(points_, u);
     std::vector<Direction<dim>> motions(points_.view().n_points),
         since(motions.size());
     check(host_.context, abut_points_motion(points_.handle(), &nodes.view,

@@ -48,7 +48,7 @@ namespace abut::shim
 
   private:
     /** Measure the rotation of directions since rows were made. Collective. */
-    void find_rotations(const std::vector<Direction<dim>> &u,
+    void find_rotations(const NodePositions<dim> &nodes,
                         const double *row_pressure,
                         const std::uint8_t *row_state);
 

@@ -186,7 +186,7 @@ namespace abut::shim
         host_.communicator,
         [&]
         {
-          check(*pair.data.obstacle,
+          check(host_.context, *pair.data.obstacle,
                 abut_obstacle_faces_away(
                     pair.data.obstacle->handle(), side.surface.get(),
                     owned.data(), side.everywhere.median, &same, &material));

@@ -79,12 +79,6 @@ namespace abut::shim
       return result;
     }
 
-    /** Whether a point changes as nodes move. */
-    bool moves(const std::size_t point) const
-    {
-      return places_.block_start[point + 1] > places_.block_start[point];
-    }
-
     /** The core's points; null: none yet. */
     abut_points *handle() const
     {
@@ -184,17 +178,11 @@ namespace abut::shim
       for_each_primary(point, function);
     }
 
-    /** Current and reference positions of the nodes, and their displacements
-     * [nodes * dim], where points of displaced pairs were made; empty if there
-     * are none. */
+    /** Current positions of the nodes, and their displacements [nodes * dim],
+     * where points of displaced pairs were made; empty if there are none. */
     const std::vector<dealii::Point<dim>> &present() const
     {
       return present_;
-    }
-
-    const std::vector<dealii::Point<dim>> &reference() const
-    {
-      return reference_;
     }
 
     const std::vector<double> &present_displacement() const

@@ -263,7 +263,7 @@ namespace abut::shim
         const std::vector<double> start = coordinates(from),
                                   end = coordinates(to);
         std::vector<abut_obstacle_path> met(to.size());
-        check(obstacle,
+        check(points_.host().context, obstacle,
               abut_obstacle_follow(obstacle.handle(),
                                    static_cast<std::int32_t>(to.size()),
                                    start.data(), end.data(), met.data()));
@@ -290,9 +290,10 @@ namespace abut::shim
           samples.view.n =
               static_cast<std::int32_t>(std::ceil(std::min(n_widths, most)));
           double between = 0.;
-          check(obstacle, abut_obstacle_passes_facets(
-                              obstacle.handle(), pair.secondary.surface.get(),
-                              &samples.view, start.data(), &between));
+          check(points_.host().context, obstacle,
+                abut_obstacle_passes_facets(
+                    obstacle.handle(), pair.secondary.surface.get(),
+                    &samples.view, start.data(), &between));
           way = std::max(way, between);
         }
         // No search finds surfaces that are apart again, and rows belong to the

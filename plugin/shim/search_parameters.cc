@@ -41,6 +41,7 @@ namespace abut
 
     void declare_lists(ParameterHandler &prm, const abut_search_options &d)
     {
+      const NumberPattern size = NumberPattern::between(0, largest_number);
       parameter::declare(
           prm, "Algorithm", abut_search_name(d.algorithm),
           Patterns::Selection(algorithm_names()), parameter::advanced(),
@@ -49,8 +50,7 @@ namespace abut
           "size. adaptive buckets: nested cells that follow the sizes of the "
           "facets.");
       parameter::declare(
-          prm, "Bucket size", "auto",
-          OrWord(NumberPattern::between(0, largest_number), "auto"),
+          prm, "Bucket size", "auto", OrWord(size, "auto"),
           parameter::expert("median facet size", "4"),
           "Edge of a bucket. auto: chosen from the data. uniform buckets: "
           "raised to the search radius if smaller, with a note in the report. "
@@ -61,20 +61,17 @@ namespace abut
                          "adaptive buckets: largest number of facets in a "
                          "bucket. auto: by `Bucket size`.");
       parameter::declare(
-          prm, "Reach", "none",
-          OrWord(NumberPattern::between(0, largest_number), "none"),
+          prm, "Reach", "none", OrWord(size, "none"),
           parameter::expert("length", "0.2"),
           "Distance within which a facet is a candidate. The larger of this "
           "and `Relative reach` counts.");
       parameter::declare(prm, "Relative reach",
-                         Patterns::Tools::to_string(d.relative_reach),
-                         NumberPattern::between(0, largest_number),
+                         Patterns::Tools::to_string(d.relative_reach), size,
                          parameter::expert("facet size", "1"),
                          "Distance within which a facet is a candidate, "
                          "relative to its size.");
       parameter::declare(
-          prm, "Skin", "auto",
-          OrWord(NumberPattern::between(0, largest_number), "auto"),
+          prm, "Skin", "auto", OrWord(size, "auto"),
           parameter::expert("length", "0.1"),
           "Length added to the reach of candidate lists, so that they stay "
           "valid after small motion. auto: the size of a facet where contact "

@@ -83,13 +83,6 @@ namespace abut::shim
       return directions == ABUT_CONFIGURATION_CURRENT;
     }
 
-    /** Whether directions and gaps refer to another configuration than that
-     * in which partners are found. */
-    bool keeps_partners() const
-    {
-      return directions != points;
-    }
-
     /** Whether directions and gaps are not those of the reference
      * configuration. */
     bool is_displaced() const

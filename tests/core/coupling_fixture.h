@@ -31,14 +31,6 @@ typedef struct couple
 } couple;
 
 static inline void
-near(double value, double expected, double tolerance, const char *what)
-{
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%s: %.17g is not %.17g (difference %.3g)", what, value, expected,
-             value - expected);
-}
-
-static inline void
 couple_release(couple_view *v)
 {
   free(v->secondary_start);

@@ -39,6 +39,18 @@ require(abut_status status)
     fail_msg("%s: %s", abut_status_text(status), abut_context_message(context));
 }
 
+/* |value - expected| <= tolerance */
+static inline void
+near(double value, double expected, double tolerance, const char *what)
+{
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%s: %.17g is not %.17g (difference %.3g)", what, value, expected,
+             value - expected);
+}
+
+#define require_near(value, expected, tolerance)                               \
+  near((value), (expected), (tolerance), #value)
+
 static inline abut_surface *
 surface_of(const scene_mesh *mesh)
 {

@@ -5,13 +5,6 @@
 
 #include "surface_fixture.h"
 
-static void
-near(double value, double expected, double tolerance)
-{
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.17g is not %.17g", value, expected);
-}
-
 static abut_obstacle *
 ball_at(int32_t dimension, double x, double y, double z, double radius)
 {
@@ -53,12 +46,12 @@ test_depth(void **state)
     require(abut_obstacle_in_facets(disc, surface, &samples, found, &n));
     assert_int_equal(n, 1);
     assert_int_equal(found[0].facet, 1);
-    near(found[0].depth, radius - below - gap, 1e-14);
-    near(found[0].size, 2., 0.);
-    near(found[0].place[0], 3., 1e-14);
-    near(found[0].place[1], 0., 0.);
+    require_near(found[0].depth, radius - below - gap, 1e-14);
+    require_near(found[0].size, 2., 0.);
+    require_near(found[0].place[0], 3., 1e-14);
+    require_near(found[0].place[1], 0., 0.);
     /* Nodes are sqrt(1 + below^2) from the centre, the point below. */
-    near(found[0].peak, radius - below - gap, 1e-14);
+    require_near(found[0].peak, radius - below - gap, 1e-14);
   }
   /* As many points as that miss it by their distance. */
   samples.n = 2;
@@ -83,8 +76,8 @@ test_depth(void **state)
   samples.position = NULL;
   samples.made = up;
   require(abut_obstacle_in_facets(disc, surface, &samples, found, &n));
-  near(found[0].peak, fmin(radius - below - gap, sqrt(1. + 1.1 * 1.1) - 1.1),
-       1e-14);
+  require_near(found[0].peak,
+               fmin(radius - below - gap, sqrt(1. + 1.1 * 1.1) - 1.1), 1e-14);
   samples.n = 0;
   assert_int_equal(abut_obstacle_in_facets(disc, surface, &samples, found, &n),
                    ABUT_INVALID_ARGUMENT);
@@ -118,9 +111,9 @@ test_kinds(void **state)
     int32_t n = 0;
     require(abut_obstacle_in_facets(ball, surface, &samples, found, &n));
     assert_int_equal(n, 1);
-    near(found[0].depth, 0.1, 1e-14);
-    near(found[0].place[0], x, 1e-14);
-    near(found[0].place[1], y, 1e-14);
+    require_near(found[0].depth, 0.1, 1e-14);
+    require_near(found[0].place[0], x, 1e-14);
+    require_near(found[0].place[1], y, 1e-14);
     require(abut_obstacle_destroy(&ball));
     require(abut_surface_destroy(&surface));
     scene_free(&mesh);
@@ -147,12 +140,12 @@ test_path(void **state)
   double way = -1.;
   require(abut_obstacle_passes_facets(disc, surface, &samples, mesh.position,
                                       &way));
-  near(way, 1.25, 1e-14);
+  require_near(way, 1.25, 1e-14);
   const uint8_t wanted[2] = {0, 1};
   samples.wanted = wanted;
   require(abut_obstacle_passes_facets(disc, surface, &samples, mesh.position,
                                       &way));
-  near(way, 0., 0.);
+  require_near(way, 0., 0.);
   require(abut_obstacle_destroy(&disc));
   require(abut_surface_destroy(&surface));
   scene_free(&mesh);
@@ -169,15 +162,15 @@ test_width(void **state)
   abut_obstacle_beside beside;
   /* Both are near by their size of 2. */
   require(abut_obstacle_narrowest(disc, surface, &samples, &beside));
-  near(beside.width, 0.4, 1e-14);
-  near(beside.size, 2., 0.);
+  require_near(beside.width, 0.4, 1e-14);
+  require_near(beside.size, 2., 0.);
   const double above[2] = {1., -0.25}, aside[2] = {-0.5, -0.25},
                behind[2] = {1., 0.5};
   /* Outward is down. */
   require(abut_obstacle_beside_facet(disc, surface, &samples, above, &beside));
   assert_true(beside.is_over);
-  near(beside.distance, 0.25, 1e-15);
-  near(beside.width, 0.4, 1e-14);
+  require_near(beside.distance, 0.25, 1e-15);
+  require_near(beside.width, 0.4, 1e-14);
   require(abut_obstacle_beside_facet(disc, surface, &samples, aside, &beside));
   assert_false(beside.is_over);
   require(abut_obstacle_beside_facet(disc, surface, &samples, behind, &beside));
@@ -186,7 +179,7 @@ test_width(void **state)
   samples.wanted = none;
   require(abut_obstacle_narrowest(disc, surface, &samples, &beside));
   assert_true(isinf(beside.width));
-  near(beside.size, 1., 0.);
+  require_near(beside.size, 1., 0.);
   assert_int_equal(
       abut_obstacle_beside_facet(disc, surface, &samples, NULL, &beside),
       ABUT_INVALID_ARGUMENT);

@@ -5,13 +5,6 @@
 
 #include "surface_fixture.h"
 
-static void
-near(double value, double expected, double tolerance)
-{
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.17g is not %.17g", value, expected);
-}
-
 static scene_mesh
 line(double x0, double y0, double x1, double y1, int32_t n)
 {
@@ -36,8 +29,8 @@ test_nearest(void **state)
     double above = 0., below = 0.;
     require(abut_surface_nearest(context, secondary, primary, &options, &above,
                                  &below));
-    near(k == 0 ? above : 0.25, 0.25, 1e-14);
-    near(k == 1 ? below : 0.25, 0.25, 1e-14);
+    require_near(k == 0 ? above : 0.25, 0.25, 1e-14);
+    require_near(k == 1 ? below : 0.25, 0.25, 1e-14);
     assert_int_equal(isinf(above) != 0, k != 0);
     assert_int_equal(isinf(below) != 0, k != 1);
     assert_int_equal(abut_surface_nearest(context, secondary, primary, &options,

@@ -9,13 +9,6 @@
 
 static abut_points *points;
 
-static void
-near(double value, double expected, double tolerance)
-{
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.17g is not %.17g", value, expected);
-}
-
 /* A point of two components in the plane, between node 0 + i of the secondary
  * and node 5 of the primary, with its normal at an angle. */
 static void
@@ -88,9 +81,9 @@ test_filter(void **state)
   require(abut_points_force_block(points, 1, value, sum, &n));
   assert_int_equal(n, 36);
   for (int e = 0; e < 36; ++e)
-    near(sum[e], 3. * (0.5 * block[e] + 2. * block[36 + e]), 1e-12);
+    require_near(sum[e], 3. * (0.5 * block[e] + 2. * block[36 + e]), 1e-12);
   require(abut_points_force_block(points, 1, NULL, sum, &n));
-  near(sum[3], block[3] + block[39], 0.);
+  require_near(sum[3], block[3] + block[39], 0.);
   require(abut_points_force_block(points, 2, value, sum, &n));
   assert_int_equal(n, 0);
   require(abut_points_force_block(points, 0, value, NULL, &n));
@@ -104,15 +97,15 @@ test_filter(void **state)
   assert_int_equal(p.pair[0], 1);
   assert_int_equal(p.facet[0], 7);
   assert_int_equal(p.node[1], 2);
-  near(p.position[0], 10., 0.);
-  near(p.position[3], 3., 0.);
+  require_near(p.position[0], 10., 0.);
+  require_near(p.position[3], 3., 0.);
   assert_int_equal(p.line_start[2], 4);
   assert_int_equal(p.line[3], 6);
   assert_int_equal(p.block_start[1], 72);
   assert_int_equal(p.block_start[2], 108);
-  near(p.block[0], block[0], 0.);
-  near(p.block[72], block[36], 0.);
-  near(p.block[107], block[71], 0.);
+  require_near(p.block[0], block[0], 0.);
+  require_near(p.block[72], block[36], 0.);
+  require_near(p.block[107], block[71], 0.);
 
   /* New numbers of nodes and facets. */
   const int32_t number[7] = {0, 4, 3, 2, 1, 8, 9};
@@ -218,44 +211,45 @@ test_measures(void **state)
   require(abut_points_measure(points, &nodes, value, gap, states, s));
   assert_int_equal(s[0].n_rows, 2);
   assert_int_equal(s[0].n_active, 1);
-  near(s[0].covered_area, 5., 0.);
-  near(s[0].contact_area, 2., 0.);
-  near(s[0].pressure, 5., 0.);
-  near(s[0].least_pressure, 5., 0.);
-  near(s[0].largest_tension, 0.5, 0.);
-  near(s[0].penetration, 0.25, 0.);
-  near(s[0].initial_gap_work, (2. * 5. - 3. * 0.5) * 0.5, 1e-14);
+  require_near(s[0].covered_area, 5., 0.);
+  require_near(s[0].contact_area, 2., 0.);
+  require_near(s[0].pressure, 5., 0.);
+  require_near(s[0].least_pressure, 5., 0.);
+  require_near(s[0].largest_tension, 0.5, 0.);
+  require_near(s[0].penetration, 0.25, 0.);
+  require_near(s[0].initial_gap_work, (2. * 5. - 3. * 0.5) * 0.5, 1e-14);
   /* Normal (0, -1): the pressures push the secondary up, w (p - 0.5 * 3); the
    * traction along (1, 0) is that on the secondary. */
-  near(s[0].secondary.force[0], 2. * -1., 1e-14);
-  near(s[0].secondary.force[1], 2. * 5. - 3. * 0.5, 1e-14);
-  near(s[0].primary.force[1], -s[0].secondary.force[1], 1e-14);
+  require_near(s[0].secondary.force[0], 2. * -1., 1e-14);
+  require_near(s[0].secondary.force[1], 2. * 5. - 3. * 0.5, 1e-14);
+  require_near(s[0].primary.force[1], -s[0].secondary.force[1], 1e-14);
   /* x f_y - y f_x where points were made, and at present. */
-  near(s[0].secondary.moment[2], made[0] * 10. - made[1] * -2. + made[2] * -1.5,
-       1e-13);
-  near(s[0].secondary.present_moment[2],
-       (reference[0] + u[0]) * 10. - (reference[1] + u[1]) * -2.
-           + (reference[2] + u[2]) * -1.5,
-       1e-13);
-  near(s[0].primary.moment[2], -(made[10] * 8.5 - made[11] * -2.), 1e-13);
+  require_near(s[0].secondary.moment[2],
+               made[0] * 10. - made[1] * -2. + made[2] * -1.5, 1e-13);
+  require_near(s[0].secondary.present_moment[2],
+               (reference[0] + u[0]) * 10. - (reference[1] + u[1]) * -2.
+                   + (reference[2] + u[2]) * -1.5,
+               1e-13);
+  require_near(s[0].primary.moment[2], -(made[10] * 8.5 - made[11] * -2.),
+               1e-13);
   /* A tie: each component has its part of the area, and gaps of both signs. */
   assert_int_equal(s[1].n_rows, 2);
-  near(s[1].covered_area, 4., 0.);
-  near(s[1].penetration, 0.125, 0.);
-  near(s[1].largest_tension, 0., 0.);
+  require_near(s[1].covered_area, 4., 0.);
+  require_near(s[1].penetration, 0.125, 0.);
+  require_near(s[1].largest_tension, 0., 0.);
   assert_true(isinf(s[1].least_pressure));
-  near(s[1].secondary.force[0], 4. * -8., 1e-13);
-  near(s[1].secondary.force[1], 4. * 7., 1e-13);
-  near(s[1].secondary.moment[2], reference[4] * 28. - reference[5] * -32.,
-       1e-12);
+  require_near(s[1].secondary.force[0], 4. * -8., 1e-13);
+  require_near(s[1].secondary.force[1], 4. * 7., 1e-13);
+  require_near(s[1].secondary.moment[2],
+               reference[4] * 28. - reference[5] * -32., 1e-12);
   /* Without states what has a pressure is closed; positions not known are
    * those of the points. */
   abut_node_positions unknown = nodes;
   unknown.displacement = NULL;
   require(abut_points_measure(points, &unknown, value, gap, NULL, s));
   assert_int_equal(s[0].n_active, 0);
-  near(s[0].least_pressure, -0.5, 0.);
-  near(s[0].secondary.present_moment[2], s[0].secondary.moment[2], 0.);
+  require_near(s[0].least_pressure, -0.5, 0.);
+  require_near(s[0].secondary.present_moment[2], s[0].secondary.moment[2], 0.);
   unknown.n_pairs = 1;
   assert_int_equal(abut_points_measure(points, &unknown, value, gap, NULL, s),
                    ABUT_INVALID_ARGUMENT);
@@ -304,9 +298,9 @@ test_motion(void **state)
         sizeof(nodes), N_NODES, 1, reference, made, u, &kinematics};
     double motion[2], since[2];
     require(abut_points_motion(points, &nodes, motion, since));
-    near(motion[0], relative[k], 1e-15);
-    near(motion[1], 0., 0.);
-    near(since[0], k == ABUT_KINEMATICS_REFERENCE ? all : step, 1e-15);
+    require_near(motion[0], relative[k], 1e-15);
+    require_near(motion[1], 0., 0.);
+    require_near(since[0], k == ABUT_KINEMATICS_REFERENCE ? all : step, 1e-15);
     require(abut_points_motion(points, &nodes, NULL, NULL));
   }
   require(abut_points_destroy(&points));

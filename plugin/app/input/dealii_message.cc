@@ -24,9 +24,4 @@ namespace abut::app
       result += (result.empty() ? "" : " ") + word;
     return result;
   }
-
-  bool says_not_implemented(const std::string &message)
-  {
-    return message.find("not implemented") != std::string::npos;
-  }
 } // namespace abut::app

@@ -11,10 +11,6 @@ namespace abut::app
    * additional information without place in the source and stack. The whole
    * text of other exceptions. */
   std::string dealii_message(const std::exception &error);
-
-  /** Whether a message of deal.II says that a function does not exist for
-   * these arguments, as in this dimension. */
-  bool says_not_implemented(const std::string &message);
 } // namespace abut::app
 
 #endif

@@ -75,13 +75,13 @@ namespace abut::app
                        "Name of the exact solution that pictures of a plane "
                        "scene show next to the computed tractions.");
     parameter::declare(
-        prm, "Closed form of pressure", "", TextPattern("a formula"),
+        prm, "Closed form of pressure", "", TextPattern::formula(),
         parameter::advanced("force/length^2", "4*Fy/pi*sqrt(max(0, 1 - x^2))"),
         "Its pressure on the secondary surface: a formula in x, y, t and the "
         "forces of the run on that surface, Fx, Fy in all and Qx, Qy of "
         "friction. Empty: none.");
     parameter::declare(
-        prm, "Closed form of friction", "", TextPattern("a formula"),
+        prm, "Closed form of friction", "", TextPattern::formula(),
         parameter::advanced("force/length^2", "0.3*Fy/pi"),
         "Its tangential traction, a formula like `Closed form of pressure`.");
     prm.leave_subsection();

@@ -172,19 +172,21 @@ has_numbers(const int32_t *node, int64_t n, int32_t n_nodes,
 }
 
 bool
-abut_places_renumber(abut_places *p, int32_t n_nodes, const int32_t *number)
+abut_places_renumber(abut_places *p, int32_t *node, int64_t n, int32_t n_nodes,
+                     const int32_t *number)
 {
   struct
   {
     int32_t *node;
     int64_t n;
-  } const list[3] = {{p->node.data, p->n},
+  } const list[4] = {{p->node.data, p->n},
                      {p->line.data, end_of(&p->line_start, p->n)},
-                     {p->column.data, end_of(&p->column_start, p->n)}};
-  for (int k = 0; k < 3; ++k)
+                     {p->column.data, end_of(&p->column_start, p->n)},
+                     {node, n}};
+  for (int k = 0; k < 4; ++k)
     if (!has_numbers(list[k].node, list[k].n, n_nodes, number))
       return false;
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 4; ++k)
     for (int64_t i = 0; i < list[k].n; ++i)
       if (list[k].node[i] >= 0)
         list[k].node[i] = number[list[k].node[i]];
@@ -256,6 +258,15 @@ abut_points_get_places_sized(const abut_points *points, abut_places_view *view)
 }
 
 abut_status
+abut_points_get_placed(const abut_points *points, abut_points_view *view,
+                       abut_places_view *places)
+{
+  const abut_status status = abut_points_get(points, view);
+  return status == ABUT_SUCCESS ? abut_points_get_places(points, places)
+                                : status;
+}
+
+abut_status
 abut_points_renumber_facets(abut_points *points, int32_t n_facets,
                             const int32_t *number)
 {
@@ -280,9 +291,7 @@ abut_points_force_block(const abut_points *points, int32_t point,
   static const char call[] = "abut_points_force_block";
   abut_points_view v;
   abut_places_view p;
-  abut_status status = abut_points_get(points, &v);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &p);
+  abut_status status = abut_points_get_placed(points, &v, &p);
   if (status != ABUT_SUCCESS)
     return status;
   if (point < 0 || point >= v.n_points || n == NULL)
@@ -291,21 +300,21 @@ abut_points_force_block(const abut_points *points, int32_t point,
   const int32_t first = v.component_start[point],
                 n_components = v.component_start[point + 1] - first;
   const double *block = p.block + p.block_start[point];
-  *n = (p.block_start[point + 1] - p.block_start[point]) / n_components;
-  if (*n > 0 && sum == NULL)
+  const int64_t size =
+      (p.block_start[point + 1] - p.block_start[point]) / n_components;
+  if (size > 0 && sum == NULL)
     return abut_fail(abut_points_context(points), ABUT_INVALID_ARGUMENT, call,
                      "sum is NULL");
   double force = 0.;
-  for (int64_t e = 0; e < *n; ++e)
+  for (int64_t e = 0; e < size; ++e)
     sum[e] = 0.;
-  for (int32_t k = 0; k<n_components && * n> 0; ++k)
+  for (int32_t k = 0; k < n_components; ++k)
   {
     const double each = value == NULL ? 1. : v.weight[point] * value[first + k];
-    for (int64_t e = 0; e < *n; ++e)
-      sum[e] += each * block[k * *n + e];
+    for (int64_t e = 0; e < size; ++e)
+      sum[e] += each * block[k * size + e];
     force += fabs(each);
   }
-  if (!(force > 0.))
-    *n = 0;
+  *n = force > 0. ? size : 0;
   return ABUT_SUCCESS;
 }

@@ -47,9 +47,14 @@ void abut_places_keep(abut_places *places, int32_t i, int32_t n_components,
 /* The places of a set. */
 abut_places *abut_points_places(abut_points *points);
 
-/* New numbers of nodes; false and unchanged if one is negative or out of range.
- */
-bool abut_places_renumber(abut_places *places, int32_t n_nodes,
-                          const int32_t *number);
+/* Views of points and of their places. */
+abut_status abut_points_get_placed(const abut_points *points,
+                                   abut_points_view *view,
+                                   abut_places_view *places);
+
+/* New numbers of nodes, here and in entries node [n]; false and unchanged if
+ * one is negative or out of range. */
+bool abut_places_renumber(abut_places *places, int32_t *node, int64_t n,
+                          int32_t n_nodes, const int32_t *number);
 
 #endif

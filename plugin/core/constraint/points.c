@@ -475,24 +475,14 @@ abut_points_renumber(abut_points *points, int32_t n_nodes,
   static const char call[] = "abut_points_renumber";
   if (points == NULL)
     return ABUT_INVALID_ARGUMENT;
-  const int64_t n = n_entries_of(points);
-  if (n > 0 && number == NULL)
+  if (n_nodes > 0 && number == NULL)
     return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
                      "number is NULL");
-  const abut_status status = abut_points_check_nodes(points, call, n_nodes);
-  if (status != ABUT_SUCCESS)
-    return status;
-  int32_t *node = points->node.data;
-  for (int64_t e = 0; e < n; ++e)
-    if (number[node[e]] < 0)
-      return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
-                       "a new number is negative");
-  if (!abut_places_renumber(&points->places, n_nodes, number))
-    return abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
-                     "a node that a point refers to has no new number");
-  for (int64_t e = 0; e < n; ++e)
-    node[e] = number[node[e]];
-  return ABUT_SUCCESS;
+  return abut_places_renumber(&points->places, points->node.data,
+                              n_entries_of(points), n_nodes, number)
+             ? ABUT_SUCCESS
+             : abut_fail(points->context, ABUT_INVALID_ARGUMENT, call,
+                         "a node that a point refers to has no new number");
 }
 
 abut_status

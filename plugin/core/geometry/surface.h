@@ -5,8 +5,11 @@
 /* The inside of a surface. */
 
 #include "base/memory.h"
+#include "geometry/vector.h"
 
 #include <abut/surface.h>
+
+#include <stdbool.h>
 
 struct abut_surface
 {
@@ -77,6 +80,30 @@ abut_surface_gather(const abut_surface *s, int32_t f, double *restrict nodes)
       for (int d = 0; d < 2; ++d)
         nodes[2 * a + d] = p[2 * (int64_t)c[a] + d];
   return n;
+}
+
+/* Outward normal of facet f, of any length, by its first corners where nodes
+ * are at these positions. */
+static inline void
+abut_surface_corner_normal(const abut_surface_view *v, int32_t f,
+                           const double *position, double *n)
+{
+  double corner[3][3] = {{0.}};
+  for (int32_t k = 0; k < v->dimension; ++k)
+    load3(position, v->dimension, v->connectivity[v->facet_start[f] + k],
+          corner[k]);
+  corner_normal3(v->dimension, corner, n);
+}
+
+/* Whether a node of facet f is marked. */
+static inline bool
+abut_surface_has_mark(const abut_surface_view *v, int32_t f,
+                      const uint8_t *marked)
+{
+  for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
+    if (marked[v->connectivity[e]] != 0)
+      return true;
+  return false;
 }
 
 /* Sum of the normals of the facets of node i, weighted by their angles there

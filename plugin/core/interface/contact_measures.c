@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Measures of the points of pairs. O(entries). */
 #include "base/context.h"
+#include "constraint/places.h"
 #include "constraint/points.h"
 #include "geometry/vector.h"
 
@@ -22,9 +23,7 @@ begin(work *w, const char *call, const abut_points *points,
       const abut_node_positions *nodes)
 {
   memset(w, 0, sizeof(*w));
-  abut_status status = abut_points_get(points, &w->view);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &w->places);
+  abut_status status = abut_points_get_placed(points, &w->view, &w->places);
   if (status != ABUT_SUCCESS)
     return status;
   abut_context *context = abut_points_context(points);
@@ -246,9 +245,7 @@ abut_points_mark_nodes(const abut_points *points, const uint8_t *state,
   static const char call[] = "abut_points_mark_nodes";
   abut_points_view v;
   abut_places_view places;
-  abut_status status = abut_points_get(points, &v);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &places);
+  abut_status status = abut_points_get_placed(points, &v, &places);
   if (status == ABUT_SUCCESS)
     status = abut_points_check_nodes(points, call, n_nodes);
   if (status != ABUT_SUCCESS)

@@ -71,27 +71,6 @@ abut_direction_change_add(int32_t dimension, int32_t n, const double *magnitude,
   return ABUT_SUCCESS;
 }
 
-static void
-facet_normal(const abut_surface *s, int32_t f, const double *position,
-             double *n)
-{
-  const int32_t dim = s->view.dimension;
-  double corner[3][3] = {{0.}};
-  for (int32_t k = 0; k < dim; ++k)
-    load3(position, dim, s->view.connectivity[s->view.facet_start[f] + k],
-          corner[k]);
-  corner_normal3(dim, corner, n);
-}
-
-static bool
-has_marked_node(const abut_surface *s, int32_t f, const uint8_t *marked)
-{
-  for (int32_t e = s->view.facet_start[f]; e < s->view.facet_start[f + 1]; ++e)
-    if (marked[s->view.connectivity[e]] != 0)
-      return true;
-  return false;
-}
-
 abut_status
 abut_surface_rotation(const abut_surface *surface, const uint8_t *marked,
                       const double *before, const double *after, double *angle)
@@ -108,10 +87,10 @@ abut_surface_rotation(const abut_surface *surface, const uint8_t *marked,
   for (int32_t f = 0; f < surface->view.n_facets; ++f)
   {
     double a[3], b[3];
-    if (!has_marked_node(surface, f, marked))
+    if (!abut_surface_has_mark(&surface->view, f, marked))
       continue;
-    facet_normal(surface, f, before, a);
-    facet_normal(surface, f, after, b);
+    abut_surface_corner_normal(&surface->view, f, before, a);
+    abut_surface_corner_normal(&surface->view, f, after, b);
     const double size = norm3(a) * norm3(b);
     if (size > 0.)
       *angle = max2(*angle, acos(clamp(dot3(a, b) / size, -1., 1.)));

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Sums over points with friction, and points that share a node. Points of one
  * node form a list: head[node], then next[point], ascending. */
-#include "base/memory.h"
+#include "constraint/places.h"
 #include "constraint/points.h"
 #include "geometry/vector.h"
 
 #include <abut/friction_points.h>
 #include <abut/law.h>
-#include <abut/places.h>
 
 #include <string.h>
 
@@ -25,9 +24,8 @@ static abut_status
 begin(work *w, const char *call, const abut_points *points, int32_t n_pairs)
 {
   memset(w, 0, sizeof(*w));
-  abut_status status = abut_points_get(points, &w->view);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &w->places);
+  const abut_status status =
+      abut_points_get_placed(points, &w->view, &w->places);
   if (status != ABUT_SUCCESS)
     return status;
   w->context = abut_points_context(points);

@@ -40,6 +40,18 @@ select_deep(const abut_surface *nodes, const abut_surface *facets,
 }
 
 abut_status
+abut_detect(abut_context *context, abut_surface *nodes, abut_surface *facets,
+            const abut_detection_options *options, abut_detection **detection,
+            abut_detection_view *view)
+{
+  abut_status status =
+      abut_detection_create(context, nodes, facets, options, detection);
+  if (status == ABUT_SUCCESS)
+    status = abut_detection_run(*detection, 0.);
+  return status == ABUT_SUCCESS ? abut_detection_get(*detection, view) : status;
+}
+
+abut_status
 abut_nodes_inside(abut_context *context, abut_surface *nodes,
                   abut_surface *facets, const abut_detection_options *options,
                   double depth, double thickness, abut_inside *found,
@@ -50,12 +62,8 @@ abut_nodes_inside(abut_context *context, abut_surface *nodes,
   abut_detection_view view;
   chosen.extension = 0.;
   *n = 0;
-  abut_status status =
-      abut_detection_create(context, nodes, facets, &chosen, &detection);
-  if (status == ABUT_SUCCESS)
-    status = abut_detection_run(detection, 0.);
-  if (status == ABUT_SUCCESS)
-    status = abut_detection_get(detection, &view);
+  const abut_status status =
+      abut_detect(context, nodes, facets, &chosen, &detection, &view);
   if (status == ABUT_SUCCESS)
     *n = select_deep(nodes, facets, &view, depth, thickness, found);
   (void)abut_detection_destroy(&detection);

@@ -14,6 +14,13 @@ typedef struct abut_inside
   double depth;
 } abut_inside;
 
+/* Detect the contacts of the nodes once. The view is that of the detection,
+ * which is the caller's to destroy. */
+abut_status abut_detect(abut_context *context, abut_surface *nodes,
+                        abut_surface *facets,
+                        const abut_detection_options *options,
+                        abut_detection **detection, abut_detection_view *view);
+
 /* Nodes deeper than depth in the facets, but not than half of the thickness (0:
  * not known) of the body behind them, which would be near its other skin.
  * Results are [n_nodes] and ascend; *n is their number. */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* A pair: its coupling, where its surfaces stand, and the places of its points.
  */
-#include "base/memory.h"
+#include "constraint/places.h"
 #include "constraint/points.h"
 #include "geometry/surface.h"
 #include "geometry/vector.h"
+#include "interface/inside.h"
 #include "interface/pair.h"
 
 #include <string.h>
@@ -147,14 +148,21 @@ abut_interface_coupling(abut_interface *pair)
   return pair == NULL ? NULL : pair->coupling;
 }
 
-static bool
-has_numbers_below(const abut_side *s, int32_t n_nodes)
+/* Whether the caller's numbers of nodes are below n_nodes. */
+static abut_status
+check_numbers(const abut_interface *p, const char *call, int32_t n_nodes)
 {
-  const int32_t *node = s->node.data;
-  for (int32_t i = 0; i < n_nodes_of(s); ++i)
-    if (node[i] < 0 || node[i] >= n_nodes)
-      return false;
-  return true;
+  const abut_side *sides[2] = {&p->secondary, &p->primary};
+  for (int k = 0; k < 2; ++k)
+    for (int32_t i = 0; i < n_nodes_of(sides[k]); ++i)
+    {
+      const int32_t node = ((const int32_t *)sides[k]->node.data)[i];
+      if (node < 0 || node >= n_nodes)
+        return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call,
+                         "a node of a surface is outside the range of the "
+                         "nodes");
+    }
+  return ABUT_SUCCESS;
 }
 
 static abut_status
@@ -179,12 +187,10 @@ abut_interface_move(abut_interface *pair, int32_t n_nodes,
   static const char call[] = "abut_interface_move";
   if (pair == NULL)
     return ABUT_INVALID_ARGUMENT;
-  if (position != NULL
-      && !(has_numbers_below(&pair->secondary, n_nodes)
-           && has_numbers_below(&pair->primary, n_nodes)))
-    return abut_fail(pair->context, ABUT_INVALID_ARGUMENT, call,
-                     "a node of a surface is outside the range of the nodes");
-  const abut_status status = move_side(pair, &pair->secondary, position);
+  abut_status status =
+      position == NULL ? ABUT_SUCCESS : check_numbers(pair, call, n_nodes);
+  if (status == ABUT_SUCCESS)
+    status = move_side(pair, &pair->secondary, position);
   return status == ABUT_SUCCESS ? move_side(pair, &pair->primary, position)
                                 : status;
 }
@@ -280,13 +286,10 @@ abut_interface_build(abut_interface *pair, const abut_interface_target *target)
   abut_interface *p = pair;
   abut_interface_target t = abut_interface_target_defaults(NULL);
   abut_status status = abut_copy_in(p->context, call, &t, sizeof(t), target);
+  if (status == ABUT_SUCCESS && t.displacement != NULL)
+    status = check_numbers(p, call, t.n_nodes);
   if (status != ABUT_SUCCESS)
     return status;
-  if (t.displacement != NULL
-      && !(has_numbers_below(&p->secondary, t.n_nodes)
-           && has_numbers_below(&p->primary, t.n_nodes)))
-    return abut_fail(p->context, ABUT_INVALID_ARGUMENT, call,
-                     "a node of a surface is outside the range of the nodes");
   abut_coupling_target to = abut_coupling_target_defaults(t.points);
   to.secondary_node = p->secondary.node.data;
   to.primary_node = p->primary.node.data;
@@ -315,12 +318,8 @@ find_distances(const abut_interface *p, const abut_side *nodes,
 {
   abut_detection *detection = NULL;
   abut_detection_view view = {0};
-  abut_status status = abut_detection_create(
-      p->context, nodes->surface, facets->surface, options, &detection);
-  if (status == ABUT_SUCCESS)
-    status = abut_detection_run(detection, 0.);
-  if (status == ABUT_SUCCESS)
-    status = abut_detection_get(detection, &view);
+  const abut_status status = abut_detect(
+      p->context, nodes->surface, facets->surface, options, &detection, &view);
   const int32_t *number = nodes->node.data;
   for (int32_t i = 0; i < view.n_nodes && status == ABUT_SUCCESS; ++i)
     if (view.contact[i].facet >= 0 && view.contact[i].gap > -p->facet_size)
@@ -379,19 +378,16 @@ abut_interface_clearances(abut_interface *pair, const abut_points *points,
     return ABUT_INVALID_ARGUMENT;
   abut_points_view v;
   abut_places_view places;
-  abut_status status = abut_points_get(points, &v);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &places);
+  abut_status status = abut_points_get_placed(points, &v, &places);
   if (status == ABUT_SUCCESS)
     status = abut_points_check_nodes(points, call, n_nodes);
+  if (status == ABUT_SUCCESS)
+    status = check_numbers(pair, call, n_nodes);
   if (status != ABUT_SUCCESS)
     return status;
-  if (pair->primary.surface == NULL || (v.n_points > 0 && clearance == NULL)
-      || !has_numbers_below(&pair->secondary, n_nodes)
-      || !has_numbers_below(&pair->primary, n_nodes))
+  if (pair->primary.surface == NULL || (v.n_points > 0 && clearance == NULL))
     return abut_fail(pair->context, ABUT_INVALID_ARGUMENT, call,
-                     "there is no primary surface, clearance is NULL, or a "
-                     "node is outside the range of the nodes");
+                     "there is no primary surface, or clearance is NULL");
   abut_detection_options options = abut_detection_defaults();
   status =
       abut_copy_in(pair->context, call, &options, sizeof(options), detection);

@@ -24,7 +24,6 @@ typedef struct work
   abut_array point;       /* double, [n_points * dimension] */
   abut_array start;       /* the same */
   abut_array distance;    /* double, [n_points] or [n_nodes of the surface] */
-  abut_array gradient;    /* double, scratch */
   abut_array at_node;     /* double, [n_nodes of the surface] */
   abut_array path;        /* abut_obstacle_path, [n_points] */
 } work;
@@ -41,8 +40,7 @@ begin(work *w, const char *call, abut_obstacle *obstacle, abut_surface *surface,
   w->obstacle = obstacle;
   w->kind = -1;
   w->shape.element = w->point.element = w->start.element = sizeof(double);
-  w->distance.element = w->gradient.element = sizeof(double);
-  w->at_node.element = sizeof(double);
+  w->distance.element = w->at_node.element = sizeof(double);
   w->path.element = sizeof(abut_obstacle_path);
   w->samples = abut_facet_samples_defaults();
   abut_status status =
@@ -62,8 +60,8 @@ begin(work *w, const char *call, abut_obstacle *obstacle, abut_surface *surface,
 static void
 finish(work *w)
 {
-  abut_array *all[] = {&w->shape,    &w->point,   &w->start, &w->distance,
-                       &w->gradient, &w->at_node, &w->path};
+  abut_array *all[] = {&w->shape,    &w->point,   &w->start,
+                       &w->distance, &w->at_node, &w->path};
   for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); ++i)
     abut_array_release(w->context, all[i]);
 }
@@ -111,19 +109,21 @@ size_of(const work *w, int32_t f)
 static abut_status
 find_distances(work *w, int32_t n, const double *points, abut_array *distance)
 {
-  abut_status status = abut_array_reserve(w->context, distance, 0, n);
-  if (status == ABUT_SUCCESS)
-    status = abut_array_reserve(w->context, &w->gradient, 0,
-                                (int64_t)n * w->view->dimension);
+  const abut_status status = abut_array_reserve(w->context, distance, 0, n);
   return status == ABUT_SUCCESS ? abut_obstacle_distance(
-             w->obstacle, n, points, distance->data, w->gradient.data, NULL)
+             w->obstacle, n, points, distance->data, NULL, NULL)
                                 : status;
 }
 
-static bool
-is_triangle(int32_t kind)
+/* Least distance of the nodes of a facet, once all are known. */
+static double
+nearest_of(const work *w, int32_t f)
 {
-  return kind == ABUT_FACET_TRI3 || kind == ABUT_FACET_TRI6;
+  double nearest = INFINITY;
+  for (int32_t a = 0; a < n_nodes_of(w, f); ++a)
+    nearest =
+        min2(nearest, ((const double *)w->at_node.data)[node_of(w, f, a)]);
+  return nearest;
 }
 
 /* Local coordinates of point k of the n * n, or n, of a grid; false: it is not
@@ -133,7 +133,7 @@ grid_point(int32_t kind, int32_t dimension, int32_t n, int32_t k, double *local)
 {
   const int32_t i = k % n, j = k / n;
   local[1] = 0.;
-  if (is_triangle(kind))
+  if (abut_facet_n_corners((abut_facet_kind)kind) == 3)
   {
     local[0] = (i + 1. / 3.) / n;
     local[1] = (j + 1. / 3.) / n;
@@ -278,13 +278,9 @@ find_in_facets(work *w, abut_facet_depth *found, int32_t *n_found)
   {
     if (!is_wanted(w, f))
       continue;
-    const double *at_node = w->at_node.data;
-    double nearest = INFINITY;
-    for (int32_t a = 0; a < n_nodes_of(w, f); ++a)
-      nearest = min2(nearest, at_node[node_of(w, f, a)]);
     abut_facet_depth here = {f, 0, 0., size_of(w, f), 0., {0., 0., 0.}};
     if (obstacle.kind != ABUT_OBSTACLE_FUNCTION
-        && nearest + w->samples.gap > here.size)
+        && nearest_of(w, f) + w->samples.gap > here.size)
       continue;
     status = look_at_facet(w, f, &depths, &here);
     if (status == ABUT_SUCCESS && here.depth > 0.)
@@ -365,13 +361,9 @@ abut_obstacle_passes_facets(abut_obstacle *obstacle, abut_surface *surface,
 static double
 width_at(const work *w, int32_t f)
 {
-  double corner[3][3] = {{0.}}, n[3];
-  for (int32_t k = 0; k < w->view->dimension; ++k)
-    place_of(w, w->samples.position, f, k, corner[k]);
-  corner_normal3(w->view->dimension, corner, n);
-  const double length = norm3(n);
-  for (int d = 0; d < 3; ++d)
-    n[d] /= length;
+  double n[3];
+  abut_surface_corner_normal(w->view, f, w->samples.position, n);
+  (void)unit3(n, 0.);
   return abut_obstacle_width(w->obstacle, n);
 }
 
@@ -383,16 +375,12 @@ find_narrowest(work *w, abut_obstacle_beside *result)
   *result = none;
   abut_status status =
       find_distances(w, w->view->n_nodes, w->samples.position, &w->at_node);
-  const double *distance = w->at_node.data;
   for (int32_t f = 0; f < w->view->n_facets && status == ABUT_SUCCESS; ++f)
   {
     if (!is_wanted(w, f))
       continue;
-    double nearest = INFINITY;
-    for (int32_t a = 0; a < n_nodes_of(w, f); ++a)
-      nearest = min2(nearest, distance[node_of(w, f, a)]);
     const double size = size_of(w, f), width = width_at(w, f);
-    if (nearest + w->samples.gap <= size
+    if (nearest_of(w, f) + w->samples.gap <= size
         && width / size < result->width / result->size)
     {
       result->width = width;
@@ -438,11 +426,10 @@ compare_middle(const work *w, int32_t f, const double *point,
     }
   }
   sub3(point, middle, way);
-  const double distance = norm3(way), length = norm3(normal);
+  const double distance = norm3(way);
   if (distance >= result->distance)
     return;
-  for (int d = 0; d < 3; ++d)
-    normal[d] /= length;
+  (void)unit3(normal, 0.);
   const double height = dot3(normal, way), size = size_of(w, f),
                width = width_at(w, f);
   axpy3(way, -height, normal, way);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Whether the sides of a pair fit together. */
-#include "base/memory.h"
+#include "constraint/places.h"
 #include "constraint/points.h"
 #include "geometry/surface.h"
 #include "geometry/vector.h"
+#include "interface/inside.h"
 
 #include <abut/pair_checks.h>
 
@@ -23,12 +24,8 @@ abut_surface_nearest(abut_context *context, abut_surface *secondary,
   *above = *below = INFINITY;
   abut_detection *detection = NULL;
   abut_detection_view view = {0};
-  abut_status status =
-      abut_detection_create(context, secondary, primary, options, &detection);
-  if (status == ABUT_SUCCESS)
-    status = abut_detection_run(detection, 0.);
-  if (status == ABUT_SUCCESS)
-    status = abut_detection_get(detection, &view);
+  const abut_status status =
+      abut_detect(context, secondary, primary, options, &detection, &view);
   for (int32_t i = 0; i < view.n_nodes && status == ABUT_SUCCESS; ++i)
   {
     if (view.contact[i].facet < 0)
@@ -73,7 +70,7 @@ count_material(abut_obstacle *obstacle, int32_t n, int32_t dim, double depth,
   {
     for (int64_t e = 0; e < (int64_t)n * dim; ++e)
       x[e] -= depth / STEPS * normal[e];
-    status = abut_obstacle_distance(obstacle, n, x, d, f->gradient.data, NULL);
+    status = abut_obstacle_distance(obstacle, n, x, d, NULL, NULL);
     for (int32_t i = 0; i < n && status == ABUT_SUCCESS; ++i)
       if (mark[i] == 1 && d[i] < 0.)
       {
@@ -127,15 +124,6 @@ abut_obstacle_faces_away(abut_obstacle *obstacle, abut_surface *surface,
   return status;
 }
 
-static bool
-has_marked_node(const abut_surface_view *v, int32_t f, const uint8_t *marked)
-{
-  for (int32_t e = v->facet_start[f]; e < v->facet_start[f + 1]; ++e)
-    if (marked[v->connectivity[e]] != 0)
-      return true;
-  return false;
-}
-
 abut_status
 abut_surface_bends(abut_surface *surface, double angle, const uint8_t *marked,
                    bool *bends)
@@ -156,7 +144,7 @@ abut_surface_bends(abut_surface *surface, double angle, const uint8_t *marked,
   for (int32_t f = 0; f < v->n_facets && status == ABUT_SUCCESS; ++f)
     for (int k = 0; k < 4 && !*bends; ++k)
       *bends = (side[f] >> k & 1) != 0 && v->neighbour[4 * (int64_t)f + k] >= 0
-               && has_marked_node(v, f, marked);
+               && abut_surface_has_mark(v, f, marked);
   abut_array_release(surface->context, &mask);
   return status;
 }
@@ -169,9 +157,7 @@ abut_points_nearest_pair(const abut_points *points, const double *gap,
   const double nearly = 1. - 1e-8; /* round-off decides nothing */
   abut_points_view v;
   abut_places_view places;
-  abut_status status = abut_points_get(points, &v);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &places);
+  abut_status status = abut_points_get_placed(points, &v, &places);
   if (status != ABUT_SUCCESS)
     return status;
   abut_context *context = abut_points_context(points);

@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Partners of points from one set to a later one. */
-#include "base/memory.h"
+#include "constraint/places.h"
 #include "constraint/points.h"
 #include "geometry/vector.h"
 #include "search/order.h"
-
-#include <abut/places.h>
-
-#include <stdbool.h>
 
 /* The point whose first component has a number; -1: none. Items are sorted. */
 static int32_t
@@ -37,15 +33,6 @@ have_common_node(const abut_places_view *a, int32_t i,
 }
 
 static void
-unit_normal(const abut_points_view *v, int32_t i, double *n)
-{
-  load3(v->frame, v->dimension, v->component_start[i], n);
-  const double length = norm3(n);
-  for (int d = 0; d < 3; ++d)
-    n[d] /= length;
-}
-
-static void
 count(const abut_points_view *v, const abut_places_view *before,
       const abut_points_view *later, const abut_places_view *now,
       const abut_keyed *list, const uint8_t *wanted,
@@ -65,10 +52,10 @@ count(const abut_points_view *v, const abut_places_view *before,
       continue;
     }
     double a[3], b[3];
-    unit_normal(v, i, a);
-    unit_normal(later, j, b);
-    changes->jumped +=
-        !have_common_node(before, i, now, j) || dot3(a, b) < far_apart;
+    load3(v->frame, v->dimension, v->component_start[i], a);
+    load3(later->frame, later->dimension, later->component_start[j], b);
+    changes->jumped += !have_common_node(before, i, now, j)
+                       || dot3(a, b) < far_apart * norm3(a) * norm3(b);
   }
 }
 
@@ -79,13 +66,9 @@ abut_points_count_changes(const abut_points *before, const abut_points *now,
   static const char call[] = "abut_points_count_changes";
   abut_points_view v, later;
   abut_places_view p, q;
-  abut_status status = abut_points_get(before, &v);
+  abut_status status = abut_points_get_placed(before, &v, &p);
   if (status == ABUT_SUCCESS)
-    status = abut_points_get(now, &later);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(before, &p);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(now, &q);
+    status = abut_points_get_placed(now, &later, &q);
   if (status != ABUT_SUCCESS)
     return status;
   abut_context *context = abut_points_context(before);

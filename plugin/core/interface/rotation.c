@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Rotation of the directions of forces since points were made. */
+#include "constraint/places.h"
 #include "constraint/points.h"
 #include "geometry/surface.h"
 #include "geometry/vector.h"
@@ -17,7 +18,7 @@ typedef struct work
   const abut_points *points;
   abut_points_view view;
   abut_places_view places;
-  const abut_node_positions *nodes;
+  abut_node_positions nodes;
   int32_t n;
   abut_array point;  /* int32_t, [n] */
   abut_array force;  /* double, [n] magnitudes */
@@ -56,7 +57,7 @@ make_room(work *w)
                     {&w->into, n * dim},
                     {&w->size, n},
                     {&w->distance, n},
-                    {&w->value, w->nodes->n_nodes * dim}};
+                    {&w->value, w->nodes.n_nodes * dim}};
   abut_status status = ABUT_SUCCESS;
   for (size_t i = 0; i < sizeof(list) / sizeof(list[0]); ++i)
   {
@@ -88,7 +89,7 @@ static bool
 is_displaced(const work *w)
 {
   return w->pair->kinematics->directions != ABUT_CONFIGURATION_REFERENCE
-         && w->nodes->made != NULL;
+         && w->nodes.made != NULL;
 }
 
 /* Directions at the points by the inward normals of a side, where its surface
@@ -103,14 +104,14 @@ add_normals(work *w, bool of_primary, double *direction)
   const abut_status status = abut_surface_normals(side->surface, &normal);
   if (status != ABUT_SUCCESS)
     return status;
-  for (int64_t k = 0; k < (int64_t)w->nodes->n_nodes * dim; ++k)
+  for (int64_t k = 0; k < (int64_t)w->nodes.n_nodes * dim; ++k)
     value[k] = 0.;
   for (int32_t i = 0; i < side->surface->view.n_nodes; ++i)
     for (int32_t d = 0; d < dim; ++d)
       value[(int64_t)node[i] * dim + d] = -normal[(int64_t)i * dim + d];
   return abut_points_sum(
       w->points, of_primary ? ABUT_SIDE_PRIMARY : ABUT_SIDE_SECONDARY, w->n,
-      w->point.data, w->nodes->n_nodes, value, direction);
+      w->point.data, w->nodes.n_nodes, value, direction);
 }
 
 /* Nearest points have the direction of the primary's facets, all others that of
@@ -122,18 +123,18 @@ find_at_bodies(work *w)
   abut_status status =
       abut_discretisation_describe(w->pair->discretisation, &info);
   const bool of_primary = !info.is_weighted && !info.row_per_point;
-  const int64_t size = (int64_t)w->nodes->n_nodes * w->view.dimension;
+  const int64_t size = (int64_t)w->nodes.n_nodes * w->view.dimension;
   if (status == ABUT_SUCCESS)
-    status = abut_interface_move(w->pair, w->nodes->n_nodes,
-                                 is_displaced(w) ? w->nodes->made
-                                                 : w->nodes->reference);
+    status = abut_interface_move(w->pair, w->nodes.n_nodes,
+                                 is_displaced(w) ? w->nodes.made
+                                                 : w->nodes.reference);
   if (status == ABUT_SUCCESS)
     status = add_normals(w, of_primary, w->before.data);
   double *now = w->value.data;
   for (int64_t k = 0; k < size; ++k)
-    now[k] = w->nodes->reference[k] + w->nodes->displacement[k];
+    now[k] = w->nodes.reference[k] + w->nodes.displacement[k];
   if (status == ABUT_SUCCESS)
-    status = abut_interface_move(w->pair, w->nodes->n_nodes, now);
+    status = abut_interface_move(w->pair, w->nodes.n_nodes, now);
   if (status == ABUT_SUCCESS)
     status = add_normals(w, of_primary, w->after.data);
   const abut_status back = abut_interface_move(w->pair, 0, NULL);
@@ -175,6 +176,8 @@ find_at_obstacle(work *w)
     size[k] = pow(v->weight[i], 1. / (dim - 1));
   }
   abut_status status = add_gradients(w, before);
+  if (status != ABUT_SUCCESS)
+    return status;
   /* Points in a thin obstacle go back the way they came, not through it: the
    * normal is into the material. */
   for (int32_t k = 0; k < w->n; ++k)
@@ -185,16 +188,17 @@ find_at_obstacle(work *w)
     for (int32_t d = 0; d < dim && dot3(a, b) > 0.; ++d)
       before[(int64_t)k * dim + d] = -a[d];
   }
-  for (int64_t e = 0; e < (int64_t)w->nodes->n_nodes * dim; ++e)
+  for (int64_t e = 0; e < (int64_t)w->nodes.n_nodes * dim; ++e)
     value[e] =
-        w->nodes->displacement[e]
-        - (is_displaced(w) ? w->nodes->made[e] - w->nodes->reference[e] : 0.);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_sum(w->points, ABUT_SIDE_SECONDARY, w->n, point,
-                             w->nodes->n_nodes, value, w->after.data);
+        w->nodes.displacement[e]
+        - (is_displaced(w) ? w->nodes.made[e] - w->nodes.reference[e] : 0.);
+  status = abut_points_sum(w->points, ABUT_SIDE_SECONDARY, w->n, point,
+                           w->nodes.n_nodes, value, w->after.data);
+  if (status != ABUT_SUCCESS)
+    return status;
   for (int64_t e = 0; e < (int64_t)w->n * dim; ++e)
     place[e] += ((const double *)w->after.data)[e];
-  return status == ABUT_SUCCESS ? add_gradients(w, w->after.data) : status;
+  return add_gradients(w, w->after.data);
 }
 
 abut_status
@@ -209,12 +213,7 @@ abut_interface_rotation(abut_interface *pair, const abut_points *points,
   memset(&w, 0, sizeof(w));
   w.pair = pair;
   w.points = points;
-  abut_node_positions taken;
-  memset(&taken, 0, sizeof(taken));
-  w.nodes = &taken;
-  abut_status status = abut_points_get(points, &w.view);
-  if (status == ABUT_SUCCESS)
-    status = abut_points_get_places(points, &w.places);
+  abut_status status = abut_points_get_placed(points, &w.view, &w.places);
   if (status != ABUT_SUCCESS)
     return status;
   if (nodes == NULL || change == NULL || (w.view.n_points > 0 && value == NULL))
@@ -222,10 +221,10 @@ abut_interface_rotation(abut_interface *pair, const abut_points *points,
                      "nodes, values or change are NULL");
   const abut_direction_change none = {0., 0., 0., {0., 0., 0.}};
   *change = none;
-  status = abut_copy_in(pair->context, call, &taken, sizeof(taken), nodes);
+  status = abut_copy_in(pair->context, call, &w.nodes, sizeof(w.nodes), nodes);
   if (status == ABUT_SUCCESS
-      && (taken.reference == NULL || taken.displacement == NULL))
-    return taken.n_nodes == 0
+      && (w.nodes.reference == NULL || w.nodes.displacement == NULL))
+    return w.nodes.n_nodes == 0
                ? ABUT_SUCCESS
                : abut_fail(pair->context, ABUT_INVALID_ARGUMENT, call,
                            "positions or displacements are NULL");

@@ -2,20 +2,7 @@
 #include "search/record.h"
 
 #include "base/clones.h"
-
-#include <math.h>
-
-static inline double
-min2(double a, double b)
-{
-  return a < b ? a : b;
-}
-
-static inline double
-max2(double a, double b)
-{
-  return a > b ? a : b;
-}
+#include "geometry/vector.h"
 
 /* Corners of quadrilaterals, side by side. */
 typedef double corners[4][3][ABUT_LANES];
