@@ -8,10 +8,10 @@
 
 A NAME is a folder of this one, or the beginning of its name or of the part
 after the number. Without any, all are solved; with --quick those of a second
-or two. --report writes the page, with the other decks as they were; --check compares the page with
-what the decks that were solved give now: words and reference values must be the
-same, values found may differ by their tolerance. --keep leaves scenes, meshes
-and results in DIR/NAME.
+or two. --report writes the page, with the other decks as they were; --check
+compares the page with the comments of the scenes' tests and with what the solved
+decks give: words and reference values must be the same, values found may differ by
+their tolerance. --keep leaves scenes, meshes and results in DIR/NAME.
 
 A folder has scene files and deck.py with
     TITLE, SOURCE, PROBLEM, SKETCH   texts of the page
@@ -21,7 +21,7 @@ A folder has scene files and deck.py with
     OPEN        what was not reached, for the overview (may be left out)
     solve(deck) runs scenes and compares values, see class Deck
 Mesh files are written by deck.py, from lengths and numbers of cells (cells.py);
-laws in C are in laws/.
+laws in C are in law.c.
 """
 import argparse
 import csv
@@ -132,10 +132,10 @@ class Deck:
         (self.work / name).write_text(text)
 
     def compile(self, law):
-        """Make the shared object of a law in C, a file of laws/."""
+        """Make the shared object of a law of law.c."""
         subprocess.run(
             ["cc", "-shared", "-fPIC", "-O1", "-I", str(ROOT / "include"),
-             str(HERE / "laws" / (law + ".c")), "-o", law + ".so", "-lm"],
+             f"-DLAW={law.upper()}", str(HERE / "law.c"), "-o", law + ".so", "-lm"],
             cwd=self.work, check=True)
 
     def run(self, scene="scene.prm", settings=None, codes=(0,), more=()):
@@ -271,7 +271,7 @@ source and the values of each deck. [Closed forms](#closed-forms) are at the end
 CLOSED = """## Closed forms
 
 The tests of the scenes in `prm` compare with closed forms and with programs that share no code with Abut. Each row is the comment
-of a test on the source of its figures.
+of a test: where its figures come from, or what is compared.
 """
 
 
@@ -306,14 +306,16 @@ def largest(deck):
 
 
 def stale(decks, page):
-    """What the page says of these decks, and they do not say now. Numbers found
-    are compared with their tolerance when they are solved."""
+    """Comments of tests, and words and reference values of these decks, that the
+    page does not have. Numbers found are compared with their tolerance when they
+    are solved."""
     def words(lines):
         # The third and fourth cell of a row of values are those found.
         return [re.sub(r"^(\| .*? \| .*? \|) .*? \| .*? \|", r"\1", line)
                 for line in lines]
     text = page.split("\n")
-    result = []
+    result = [f"the page has not the comment of {row[1]}" for row in closed_forms()
+              if table([], [row])[-1] not in text]
     for deck in decks:
         part = deck.page()
         head = part[0]

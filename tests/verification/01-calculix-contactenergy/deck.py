@@ -25,12 +25,12 @@ SKETCH = r"""
 """
 ELEMENTS = r"""
 The same hexahedra. CalculiX integrates the pressure over the surfaces, Abut uses dual mortar and the same law in C
-(`tests/verification/laws/linear_law.c`). The pressure is uniform, so that both are the same. Tolerance: 1e-5.
+(`tests/verification/law.c`). The pressure is uniform, so that both are the same. Tolerance: 1e-5.
 """
 
 
 def solve(deck):
-    deck.compile("linear_law")
+    deck.compile("linear")
     # The foot is smaller than the facet of the cube, which is said.
     result = deck.run()
     for name, body, place, value in (

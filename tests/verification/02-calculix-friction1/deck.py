@@ -22,7 +22,7 @@ SKETCH = r"""
         ///////////////////
 """
 ELEMENTS = r"""
-The same hexahedra, contact at nodes, large strain, the same law in C (`tests/verification/laws/smooth_linear_law.c`). The springs of stick in
+The same hexahedra, contact at nodes, large strain, the same law in C (`tests/verification/law.c`). The springs of stick in
 Abut are a multiple of the local stiffness (`Method/Penalty factor`); a first run measures the stiffness, the second one has 47000. Tolerance: 1e-3 for
 pressures and 2e-3 for tractions, the accuracy of the deck. Its pressures times the areas of the nodes are smaller than the load by 3.4e-4.
 Its tractions at nodes that are equal by symmetry differ by up to 9e-4, and the traction in the centre is 1e-3 in place of 0.
@@ -48,7 +48,7 @@ def area(*place):
 
 
 def solve(deck):
-    deck.compile("smooth_linear_law")
+    deck.compile("smooth_linear")
     penalty = .05
     row = deck.run(settings={"Method/Penalty factor": penalty}).node(2, .75, .75, 1)
     found = -row["contact_x"] / area(.75, .75) / row["slip_x"]

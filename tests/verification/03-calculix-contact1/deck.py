@@ -25,7 +25,7 @@ SKETCH = r"""
      ////////////////////
 """
 ELEMENTS = r"""
-The same hexahedra, contact at nodes, the same law in C (`tests/verification/laws/exponential_law.c`). The strains of 3e-6 are large strain
+The same hexahedra, contact at nodes, the same law in C (`tests/verification/law.c`). The strains of 3e-6 are large strain
 in CalculiX. Tolerance: 1e-5.
 """
 REMARKS = r"""
@@ -51,7 +51,7 @@ def closed_form():
 
 
 def solve(deck):
-    deck.compile("exponential_law")
+    deck.compile("exponential")
     result = deck.run(settings={"Method/Discretisation": "node to segment"})
     foot = (0.5, 0.5 - 0.02 ** 0.5, 1)
     cube, block = closed_form()

@@ -39,7 +39,7 @@ VALUES = (("2.5e-7", 0, 2.812290e-06, 1.643695e-06),
 
 
 def solve(deck):
-    deck.compile("smooth_linear_law")
+    deck.compile("smooth_linear")
     # Springs of stick are a multiple of the local stiffness: traction by slip of
     # a step, with nodes that stick.
     penalty = .1

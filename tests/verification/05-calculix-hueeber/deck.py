@@ -29,7 +29,7 @@ SKETCH = r"""
 """
 ELEMENTS = r"""
 Hexahedra of one layer there, quadrilaterals with the same displacements here. Contact is at points of quadrature on the common parts of
-facets, with the same law in C (`tests/verification/laws/linear_law.c`). Tolerance: 1e-5 of the largest displacement.
+facets, with the same law in C (`tests/verification/law.c`). Tolerance: 1e-5 of the largest displacement.
 """
 SIDES = {"Body 2/Traction": "", "Body 2/Prescribed displacement": "3: 0, -5e-7",
          "Body 1/Traction": "0: 8.3333e-3*120e5, -8.3333e-2*120e5; "
@@ -51,7 +51,7 @@ NODES = (
 
 
 def solve(deck):
-    deck.compile("linear_law")
+    deck.compile("linear")
     soft = {"Method/Law parameters": "stiffness: 1e12"}
     for case, (name, settings) in enumerate((
             ("hueeber2", {}), ("hueeber3", {**soft, **SIDES}),

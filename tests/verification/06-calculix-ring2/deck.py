@@ -19,7 +19,7 @@ SKETCH = r"""
 """
 ELEMENTS = r"""
 One serendipity element (CAX8) per ring there, expanded to a wedge of 2 degrees: $\sin(1°)/1° = 1 - 5 \cdot 10^{-5}$. Biquadratic elements here.
-Large strain and the same law in C (`tests/verification/laws/linear_law.c`). Tolerance: 1e-4, the wedge and the change of 2.5e-5 when CalculiX
+Large strain and the same law in C (`tests/verification/law.c`). Tolerance: 1e-4, the wedge and the change of 2.5e-5 when CalculiX
 2.20 has 4 x 4 elements per ring. The closed form within 1e-8, with small strain on a finer mesh.
 """
 REMARKS = r"""
@@ -50,7 +50,7 @@ def closed_form():
 
 
 def solve(deck):
-    deck.compile("linear_law")
+    deck.compile("linear")
     result = deck.run()
     for name, body, r, value in EDGES:
         deck.compare("u_r, " + name, value, result.moved(body, r, .1)[0], 1e-4)

@@ -34,10 +34,10 @@ def solve(deck):
                 deck.run("co16.prm").free_norm())
     deck.compare("(b) co18, norm of the displacement", SLIDING[0],
                  deck.run("co18.prm").free_norm(), 1e-5)
-    deck.compile("linear_law")
+    deck.compile("linear")
     for stiffness in (50, 500):
         result = deck.run("co18.prm", {
-            "Method/Enforcement": "user", "Method/Law file": "linear_law.so",
+            "Method/Enforcement": "user", "Method/Law file": "linear.so",
             "Method/Law parameters": f"stiffness: {stiffness}"})
         deck.within(f"(b) the same, linear law of stiffness {stiffness}",
                     SLIDING, result.free_norm())

@@ -35,10 +35,9 @@ SKETCH = r"""
                                                +--------+ 0
 """
 ELEMENTS = r"""
-The same tetrahedra, contact at nodes against facets. Tolerances: 1e-9 for the tied beams. 2box: FrontISTR has lost two nodes, which have
-gone through the lower box. With the four facets that have neither node, 1e-4 of
-the largest displacement. With all facets the force lies between those of FrontISTR with wedges
-and hexahedra below, which lose no nodes, and 1 % above: tetrahedra are stiffer.
+The same tetrahedra, contact at nodes against facets. Tolerances: 1e-9 for the tied beams. In 2box FrontISTR has lost two nodes, which have
+gone through the lower box. With the four facets that have neither node, 1e-4 of the largest displacement. With all facets the force is up to
+0.8 % above that of FrontISTR with wedges below, which lose no nodes: tetrahedra are stiffer.
 """
 REMARKS = r"""
 Differences of displacements are the largest of all nodes, divided by the largest displacement.
@@ -124,7 +123,7 @@ def compare_displacements(deck, name, result, meshes, n_nodes, tolerance):
     if len(pairs) != n_nodes:
         raise ValueError(f"{name} has {len(pairs)} nodes")
     for d in range(3):
-        deck.compare(f"{name}, largest |u_{'xyz'[d]}|",
+        deck.compare(f"{name}, largest size of u_{'xyz'[d]}",
                      max(abs(u[d]) for _, u in pairs),
                      max(abs(v[d]) for v, _ in pairs), tolerance,
                      scale=max(abs(x) for _, u in pairs for x in u))
@@ -167,14 +166,16 @@ def solve_tied(deck, name, nodes, n_nodes):
             loads.append(f"{mesh.faces[k][0]}: " + ", ".join(
                 "%.15g" % (-sign * x / abs(flat[1])) for x in now))
         deck.write(f"body-{number}.msh", mesh.gmsh())
-        support = ["Support = 1: 0, 0, 0"] if number == 1 else []
+        support = ["Prescribed displacement = 1: 0, 0, 0"] if number == 1 else []
         parts.append(body(number, *support, "Traction = " + "; ".join(loads)))
         meshes.append(mesh)
     deck.write("beams.prm", solid(
         3, *parts, section("Pair 1", "Secondary = 2: 2", "Primary = 1: 2",
                            "Tied = true"), LEVEL, NODES, OUTPUT))
-    # The tetrahedra are too stiff (ABUT-F16), as those of FrontISTR.
+    # The tetrahedra are too stiff, as those of FrontISTR.
     result = deck.run("beams.prm", {"Solid/Degree": 1})
+    if "ABUT-F16" not in result.summary["codes"]:
+        raise ValueError(f"{name}: no warning ABUT-F16")
     compare_displacements(deck, name, result, meshes, n_nodes, 1e-9)
 
 
@@ -200,7 +201,7 @@ def solve_boxes(deck):
             zip(meshes, ("4: free, free, 0", "5: free, free, -0.1")), 1):
         deck.write(f"body-{number}.msh", mesh.gmsh())
         meshes[number - 1].lines = ("Material = st venant-kirchhoff",
-                                    f"Support = {rollers}{end}")
+                                    f"Prescribed displacement = {rollers}{end}")
     deck.write("boxes.prm", solid(
         3, *(body(k + 1, *mesh.lines) for k, mesh in enumerate(meshes)),
         section("Pair 1", "Secondary = 2: 7", "Primary = 1: 7"), LEVEL, NODES, OUTPUT))
@@ -213,9 +214,9 @@ def solve_boxes(deck):
         result = deck.run("boxes.prm", {
             **degree, "Pair 1/Secondary": "2: 7, 8",
             "Method/Discretisation": method})
-        # Wedges and hexahedra below; 1 % above.
+        # Above that with wedges below (hexahedra: 41.053478286).
         deck.within(f"2box, eight facets, force, {method}",
-                    (41.077863477, 41.053478286, 1.01 * 41.077863477),
+                    (41.077863477, 1.0077 * 41.077863477),
                     result.summary["pair_1_force"][2])
 
 
