@@ -23,7 +23,7 @@ from program import Program, set_words  # noqa: E402
 
 p = Program()
 sys.path.insert(0, str(p.source / "plugin/tools"))
-from abut_tools import draw, style  # noqa: E402
+from abut_tools import draw, sketch, style  # noqa: E402
 from abut_tools.run_folder import RunFolder  # noqa: E402
 from abut_tools.vtu import read_mesh  # noqa: E402
 
@@ -98,6 +98,8 @@ def check_hertz():
     arc, pressure = data["tractions"]["pressure_1"].T
     near(pressure[arc < 0.9 * a], hertz(arc[arc < 0.9 * a]), 0.05, "pressure")
     p.expect(run_folder.summary["pair_1_closed_form"] == "Hertz", "its name")
+    p.expect(list(run_folder.pairs()) == [1] and "gap" in run_folder.pairs()[1],
+             "the closed form is taken for the computed pressure")
     svg = folder / "tractions.svg"
     result = p.call("draw", folder, "--picture", "tractions", "--width", "84")
     p.expect(result.returncode == 0 and "Hertz" in svg.read_text(),
@@ -152,6 +154,12 @@ def check_kinds():
              {"search", "detection"})):
         found = drawn(run(scene, {**settings, "Output/Pictures": "false"}))
         p.expect(set(found) == names, f"{scene}: {set(found)}, not {names}")
+    # Nothing of an earlier run in the same folder.
+    run("bar-impact.prm", {"Time stepping/End time": 0.05}, "again")
+    p.call("run", p.source / "prm/hertz-2d.prm", "--output", "again", "--quiet",
+           *set_words(quick))
+    p.expect(set(drawn(p.folder / "again"))
+             == {"bodies", "tractions", "convergence"}, "an earlier motion")
     # Without fields of its own a run with pictures writes the last state.
     folder = run("hertz-2d.prm", {**quick, "Output/Fields": "false",
                                   "Output/Pictures": "true"}, "fieldless")
@@ -163,6 +171,31 @@ def check_kinds():
     result = p.call("draw", run("friction-bar.prm"))
     p.expect(result.returncode == 3 and "nothing to draw" in result.stderr,
              "a chain of masses: " + result.stderr)
+
+
+def check_sketch():
+    """The sketch of a check, also with a wrong id; what it is made of."""
+    scene, before = p.source / "prm/hertz-2d.prm", set(p.folder.iterdir())
+    for words, code in (([], 0), (["--set", "Pair 1/Secondary=1: 17"], 2)):
+        result = p.call("check", scene, "--draw", "sketch.svg", *words)
+        p.expect(result.returncode == code, f"check --draw: {result.stderr}")
+        file = p.folder / "sketch.svg"
+        p.expect(file.exists() and file.stat().st_size > 1000, "no sketch")
+        file.unlink()
+    p.expect(set(p.folder.iterdir()) == before, "a check leaves other files")
+    p.expect_error(p.call("check", p.source / "prm/point-mass.prm", "--draw",
+                          "no.svg"), "nothing to draw")
+    p.expect_error(p.call("check", scene, "--draw", "sketch.txt"), "--draw")
+    # A square of side 4 with a hole of side 2, whichever way they are given.
+    outer = numpy.array([[0, 0], [4, 0], [4, 4], [0, 4]])
+    for hole in (outer / 2 + 1, (outer / 2 + 1)[::-1]):
+        parts = sketch.filled([hole, outer]).to_polygons()
+        area = sum(0.5 * (x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1))
+                   for x, y in (part.T for part in parts))
+        near(area, 16 - 4, 1e-12, "area with a hole")
+    for text, value in (("-5/8 * t", -0.625), ("0.0", 0), ("2*pi", 2 * math.pi),
+                        ("if(y > 5, -350, 0)", None), ("1.5 * (1 - y)", None)):
+        p.expect(sketch.value_of(text) == value, f"{text} is not {value}")
 
 
 def check_motion():
@@ -307,6 +340,7 @@ def check_reader():
 check_point_mass()
 check_broken()
 check_without_python()
+check_sketch()
 if not p.short:
     check_hertz()
     check_friction()

@@ -49,6 +49,14 @@ def run(scene, folder, code, settings=()):
              f"{scene}: exit code {result.returncode}\n{result.stderr}")
     record = json.loads((p.folder / folder / "run.json").read_text())
     p.expect(record["exit_code"] == code, f"{scene}: {record}")
+    if record["has_results"]:
+        summary = json.loads((p.folder / folder / "summary.json").read_text())
+        for name, measure in summary["examination"].items():
+            limit = measure["warning_above"] or measure["error_above"]
+            p.expect(limit is None or (measure["value"] or 0) <= limit
+                     or measure["code"] in summary["codes"],
+                     f"{scene}: {name} is too large, without a message "
+                     f"{measure['code']}")
     return result
 
 
@@ -110,6 +118,9 @@ for scene in p.some(["press-fit.prm", "point-mass.prm", "flat-obstacle.prm",
 run("press-fit.prm", "press-fit", 2, {"Pair 1/Secondary": "1: 17"})
 look("press-fit", "INPUT ERROR", "17", "Contact pairs",
      without=("<h2>Results</h2>",), pictures=1)
+
+run("hertz-2d.prm", "hertz", 2, {"Pair 1/Secondary": "1: 17"})
+look("hertz", "INPUT ERROR", "rigid obstacles at time 0", pictures=1)
 
 # Output/Report writes the page by itself, where the scene has an error, too.
 report = {"Output/Report": "true", "Refinement/Level": 1}

@@ -4,20 +4,11 @@
 from runs of prm/point-mass.prm, and drawings of the contact search.
 
     tests/bench/lecture_pictures.py build/release/abut [--folder doc/pictures]"""
-import argparse
-import csv
-import pathlib
-import subprocess
-import sys
-import tempfile
+import numpy
+from matplotlib import patches
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plugin/tools"))
-
-import numpy  # noqa: E402
-from matplotlib import patches  # noqa: E402
-
-from abut_tools import style  # noqa: E402
+import pictures
+from pictures import bare, style
 
 # The point mass: k u = f - p, gap 1 - u.
 STIFFNESS, FORCE, HEIGHT = 1.0, 3.0, 1.0
@@ -37,15 +28,10 @@ METHODS = {
 
 def path(abut, folder, method, settings):
     """Rows (u, p, penalty, barrier) of the outer steps of a run."""
-    command = [abut, "run", ROOT / "prm/point-mass.prm", "--quiet", "--output",
-               folder, "--set", f"Method/Enforcement={method}",
-               "--set", "Output/Pictures=false"]
-    for setting in settings:
-        command += ["--set", setting]
-    subprocess.run(command, check=True)
-    with open(folder / "levels.csv", encoding="utf-8") as file:
-        return [[float(row[name]) for name in ("u", "p", "penalty", "barrier")]
-                for row in csv.DictReader(file)]
+    table = pictures.run(abut, "point-mass.prm", folder, "levels.csv",
+                         f"Method/Enforcement={method}", *settings)
+    return list(zip(*(table[name] for name in ("u", "p", "penalty",
+                                               "barrier"))))
 
 
 def laws(axes, method, rows, u):
@@ -105,13 +91,6 @@ def draw_errors(paths, folder):
     axes.set_ylabel("error of the contact force $|p - 2|$")
     style.legend(axes)
     return style.save(figure, folder, "lecture-errors")
-
-
-def bare(axes, x, y):
-    axes.set_aspect("equal")
-    axes.set_xlim(*x)
-    axes.set_ylim(*y)
-    axes.axis("off")
 
 
 def surfaces():
@@ -273,23 +252,12 @@ def draw_sliding(folder):
     return style.save(figure, folder, "lecture-sliding")
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("abut", type=pathlib.Path)
-    arguments.add_argument("--folder", type=pathlib.Path,
-                           default=ROOT / "doc/pictures")
-    arguments = arguments.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        paths = {method: path(arguments.abut, pathlib.Path(folder), method, how)
-                 for method, how in METHODS.items()}
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        for svg, _ in (draw_paths(paths, folder), draw_errors(paths, folder),
-                       draw_buckets(folder), draw_detection(folder),
-                       draw_sliding(folder)):
-            (arguments.folder / svg.name).write_bytes(svg.read_bytes())
-            print(arguments.folder / svg.name)
+def draw(abut, folder):
+    paths = {method: path(abut, folder / "run", method, how)
+             for method, how in METHODS.items()}
+    return (draw_paths(paths, folder), draw_errors(paths, folder),
+            draw_buckets(folder), draw_detection(folder), draw_sliding(folder))
 
 
 if __name__ == "__main__":
-    main()
+    pictures.main(__doc__, draw)

@@ -4,26 +4,11 @@
 test, and the flight of a bouncing ball.
 
     tests/bench/theory_pictures.py build/release/abut [--folder doc/pictures]"""
-import argparse
-import csv
-import pathlib
-import subprocess
-import tempfile
+import numpy
+from matplotlib import patches
 
-from lecture_pictures import ROOT, bare, numpy, patches, style
-
-
-def run(abut, scene, folder, table, *settings):
-    """Columns of a table that a run writes."""
-    command = [abut, "run", ROOT / "prm" / scene, "--quiet", "--output", folder,
-               "--set", "Output/Pictures=false"]
-    for setting in settings:
-        command += ["--set", setting]
-    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
-    with open(folder / table, encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return {name: numpy.array([float(row[name]) for row in rows])
-            for name in rows[0]}
+import pictures
+from pictures import bare, run, style
 
 
 def arrow(axes, begin, end, colour=style.BLACK, kind="->"):
@@ -210,21 +195,11 @@ def draw_mass(abut, scratch, folder):
     return style.save(figure, folder, "lecture-mass")
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("abut", type=pathlib.Path)
-    arguments.add_argument("--folder", type=pathlib.Path,
-                           default=ROOT / "doc/pictures")
-    arguments = arguments.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        scratch = pathlib.Path(scratch)
-        for svg, _ in (draw_contact(scratch), draw_points(scratch),
-                       draw_patch(arguments.abut, scratch / "run", scratch),
-                       draw_friction(scratch),
-                       draw_mass(arguments.abut, scratch / "run", scratch)):
-            (arguments.folder / svg.name).write_bytes(svg.read_bytes())
-            print(arguments.folder / svg.name)
+def draw(abut, folder):
+    return (draw_contact(folder), draw_points(folder),
+            draw_patch(abut, folder / "run", folder), draw_friction(folder),
+            draw_mass(abut, folder / "run", folder))
 
 
 if __name__ == "__main__":
-    main()
+    pictures.main(__doc__, draw)

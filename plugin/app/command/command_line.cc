@@ -2,7 +2,7 @@
 #include "command_line.h"
 
 #include "app/input/input_error.h"
-#include "failure_list.h"
+#include "app/report/failure_list.h"
 
 #include <abut/dealii/nearest_word.h>
 
@@ -102,6 +102,10 @@ Exit code 0 without errors, else 2.
   --set "Section/Name=value"  override a parameter of the file; may be repeated
   --values                    print all parameters with their values (JSON), and
                               check no more than these
+  --draw FILE                 draw a sketch of bodies or membranes (SVG, PNG or
+                              PDF): boundary ids, supports, loads, pairs,
+                              obstacles; also where a wrong boundary id is an
+                              error. It needs Python, see abut help draw
 )"},
         {"search", R"(abut search SCENE.prm [options]
 
@@ -233,7 +237,8 @@ Print the commands, explain one, or list the known failures by code.
     std::vector<std::string> options_of(const Command command)
     {
       if (command == Command::check)
-        return {"--set", "--set-if-used", "--values", "--quiet", "--verbose"};
+        return {"--set",  "--set-if-used", "--values",
+                "--draw", "--quiet",       "--verbose"};
       return {"--set", "--set-if-used", "--output", "--quiet", "--verbose"};
     }
 
@@ -257,6 +262,8 @@ Print the commands, explain one, or list the known failures by code.
           result.explain = true;
         else if (words[i] == "--values" && result.command == Command::check)
           result.values = true;
+        else if (words[i] == "--draw" && result.command == Command::check)
+          result.sketch = value_of(words, i);
         else if (words[i].size() > 1 && words[i][0] == '-')
           throw InputError(
               "", "'" + words[0] + "' has no option '" + words[i] + "'."

@@ -30,6 +30,7 @@ namespace abut::app
     std::vector<std::string> overrides; /**< of `--set` */
     std::vector<std::string> offers;    /**< of `--set-if-used` */
     std::string output;                 /**< empty: output/<name of the file> */
+    std::string sketch;                 /**< file of `check --draw` */
     std::string kind, level;            /**< of `abut parameters`; empty: all */
     bool quiet = false;
     bool verbose = false; /**< print all figures with their keys */

@@ -19,11 +19,14 @@
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
 
+#include <unistd.h>
+
 #include <iostream>
 #include <map>
 #include <memory>
 #include <new>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 namespace abut::app
@@ -214,13 +217,25 @@ namespace abut::app
     }
 
     /** Files of an earlier run that pages and pictures would take for those of
-     * this one. */
-    void remove_sketch(const std::filesystem::path &folder)
+     * this one: the problem, and the results. */
+    const char *const of_problem =
+        "(parameters|outline)\\.json|obstacles\\.vtu";
+    const char *const of_results =
+        "(levels|steps|newton|motion|masses|sweep|nodal|candidates"
+        "|pair_\\d+(_closed_form)?)\\.csv|(fields|contact)\\.pvd"
+        "|(primary|secondary)\\.vtu";
+
+    void remove_files(const std::filesystem::path &folder, const char *pattern)
     {
       std::error_code ignored;
-      for (const char *name :
-           {"parameters.json", "outline.json", "obstacles.vtu"})
-        std::filesystem::remove(folder / name, ignored);
+      const std::regex names(pattern);
+      std::vector<std::filesystem::path> found;
+      for (const auto &file :
+           std::filesystem::directory_iterator(folder, ignored))
+        if (std::regex_match(file.path().filename().string(), names))
+          found.push_back(file.path());
+      for (const std::filesystem::path &file : found)
+        std::filesystem::remove(file, ignored);
     }
 
     ExitCode run_scene(LoadedScene &loaded, RunOptions options,
@@ -241,7 +256,9 @@ namespace abut::app
                    status.begin();
                    if (!is_root(communicator))
                      return;
-                   remove_sketch(options.output_folder);
+                   remove_files(options.output_folder, of_problem);
+                   if (!line.resume)
+                     remove_files(options.output_folder, of_results);
                    write_file(options.output_folder / "parameters.json",
                               loaded.parameters_json());
                  });
@@ -292,7 +309,7 @@ namespace abut::app
         const RunLock lock(folder, communicator);
         if (!is_root(communicator))
           return;
-        remove_sketch(folder);
+        remove_files(folder, of_problem);
         if (loaded)
           write_file(folder / "parameters.json", loaded->parameters_json());
         StatusFile status(communicator, folder, line.words, line.file);
@@ -308,21 +325,72 @@ namespace abut::app
       }
     }
 
-    ExitCode check_scene(LoadedScene &loaded, const RunOptions &options,
+    /** What a check leaves for its sketch, on rank 0, until it is drawn. */
+    class SketchFolder
+    {
+    public:
+      SketchFolder(const LoadedScene &loaded, const std::string &sketch)
+          : sketch(sketch),
+            folder(std::filesystem::temp_directory_path()
+                   / ("abut-check-" + std::to_string(getpid())))
+      {
+        make_output_folder(folder);
+        write_file(folder / "parameters.json", loaded.parameters_json());
+      }
+
+      ~SketchFolder()
+      {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+      }
+
+      SketchFolder(const SketchFolder &) = delete;
+      SketchFolder &operator=(const SketchFolder &) = delete;
+
+      bool has_outline() const
+      {
+        return std::filesystem::exists(folder / "outline.json");
+      }
+
+      ExitCode draw() const
+      {
+        return run_tool({"sketch", folder.string(), sketch});
+      }
+
+      const std::string sketch;
+      const std::filesystem::path folder;
+    };
+
+    ExitCode check_scene(LoadedScene &loaded, RunOptions options,
                          const CommandLine &line)
     {
+      std::optional<SketchFolder> sketch;
       collective(options.communicator,
                  [&]
                  {
-                   if (is_root(options.communicator))
-                     check_output_folder(options.output_folder);
+                   if (!is_root(options.communicator))
+                     return;
+                   check_output_folder(options.output_folder);
+                   if (!line.sketch.empty())
+                     sketch.emplace(loaded, line.sketch);
                  });
+      // Only rank 0 writes.
+      options.output_folder = sketch ? sketch->folder.string() : line.sketch;
       Report report(options.communicator, verbosity(line));
       loaded.describe(report);
-      loaded.scene->check(options, report);
+      try
+      {
+        loaded.scene->check(options, report);
+      }
+      catch (const InputError &)
+      {
+        if (sketch && sketch->has_outline())
+          sketch->draw();
+        throw;
+      }
       report.print_summary();
       report.print("\n  " + line.file + ": no errors found");
-      return ExitCode::success;
+      return sketch ? sketch->draw() : ExitCode::success;
     }
 
     /** run, check and search. An error in the input is thrown with the place of

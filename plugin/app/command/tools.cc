@@ -45,8 +45,6 @@ namespace abut::app
           named != nullptr && named[0] != 0
               ? std::vector<std::string>{named}
               : std::vector<std::string>{"python3", "/usr/bin/python3"};
-      ChildOptions options;
-      options.log = log;
       // Of its environment a tool learns which program has started it.
       const std::string program = fs::read_symlink("/proc/self/exe").string();
       setenv("ABUT_PROGRAM", program.c_str(), 1);
@@ -56,7 +54,7 @@ namespace abut::app
         std::vector<std::string> command = {python, "-B",
                                             tools_folder().string()};
         command.insert(command.end(), words.begin(), words.end());
-        const ChildResult result = run_child(command, options);
+        const ChildResult result = run_child(command, log);
         if (result.ended != ChildResult::Ended::not_found
             && !(result.ended == ChildResult::Ended::exited
                  && result.code == lacks_packages))

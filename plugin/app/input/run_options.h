@@ -16,7 +16,8 @@ namespace abut::app
   {
     MPI_Comm communicator = MPI_COMM_NULL;
     std::filesystem::path scene_file;
-    /** Folder of the results; exists and is writable when run() is called. */
+    /** Folder of the results; exists and is writable when run() is called.
+     * Empty: a check that writes nothing. */
     std::filesystem::path output_folder;
     /** `set Pictures` of section `Output`. */
     bool pictures = false;

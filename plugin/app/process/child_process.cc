@@ -23,12 +23,9 @@ namespace abut::app
     /** What the child does before it becomes another program. Between fork and
      * exec only calls that are safe in signal handlers are allowed: no memory
      * may be allocated. */
-    [[noreturn]] void become(char **words, const char *folder, const char *log,
-                             const pid_t parent)
+    [[noreturn]] void become(char **words, const char *log, const pid_t parent)
     {
       end_with(parent);
-      if (folder[0] != 0 && chdir(folder) != 0)
-        _exit(cannot_begin);
       if (log[0] != 0)
       {
         const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -53,21 +50,19 @@ namespace abut::app
   }
 
   ChildResult run_child(const std::vector<std::string> &words,
-                        const ChildOptions &options)
+                        const std::filesystem::path &log)
   {
     std::vector<char *> arguments;
     for (const std::string &word : words)
       arguments.push_back(const_cast<char *>(word.c_str()));
     arguments.push_back(nullptr);
-    const std::string folder = options.folder.string(),
-                      log = options.log.string();
     const pid_t parent = getpid();
     const pid_t process = fork();
     if (process < 0)
       throw std::runtime_error("cannot start '" + words[0]
                                + "': the system has no room for a process");
     if (process == 0)
-      become(arguments.data(), folder.c_str(), log.c_str(), parent);
+      become(arguments.data(), log.c_str(), parent);
     int status = 0;
     while (waitpid(process, &status, 0) < 0 && errno == EINTR)
       continue;

@@ -14,15 +14,6 @@
 
 namespace abut::app
 {
-  struct ChildOptions
-  {
-    /** Working folder; empty: that of this process. */
-    std::filesystem::path folder;
-    /** File for all that the child prints, relative to @ref folder; empty: it
-     * prints where this process does. */
-    std::filesystem::path log;
-  };
-
   struct ChildResult
   {
     enum class Ended
@@ -46,9 +37,11 @@ namespace abut::app
 
   /** Run @p words, the first being the program, and wait for its end. The child
    * does not outlive this process (on Linux). Throws std::runtime_error when
-   * the system has no room for another process. */
+   * the system has no room for another process.
+   * @param log file for all that the child prints; empty: it prints where this
+   * process does */
   ChildResult run_child(const std::vector<std::string> &words,
-                        const ChildOptions &options);
+                        const std::filesystem::path &log);
 } // namespace abut::app
 
 #endif

@@ -54,7 +54,7 @@ namespace abut::app
         {"dissipation", "energy dissipated by friction"},
         {"dissipated", "energy dissipated"},
         {"dissipated_energy", "energy dissipated"},
-        {"energy_gain", "energy gained by the time scheme"},
+        {"energy_gain", "part of the energy gained by the scheme"},
         {"energy_loss", "energy lost by the time scheme"},
         {"energy_lost_in_impacts", "energy lost in impacts"},
         {"kinetic_energy", "kinetic energy"},
@@ -366,12 +366,8 @@ namespace abut::app
         add("action and reaction differ by " + short_number(*other, 2));
       if (const auto value = report.number("work_error"))
         add("error of the work " + short_number(*value, 2));
-      // Of each: its value, and the limits of a warning and of an error.
-      std::size_t n_checks = 0;
-      for (const std::string &key : report.keys())
-        n_checks += key.rfind("examination/", 0) == 0 ? 1 : 0;
-      if (n_checks > 0)
-        add(std::to_string(n_checks) + " checks");
+      if (report.n_examined() > 0)
+        add(std::to_string(report.n_examined()) + " checks");
       if (const auto n = report.n_warnings())
         add(std::to_string(n) + (n == 1 ? " warning" : " warnings") + " above");
       else

@@ -4,6 +4,7 @@
 #include "app/input/short_number.h"
 #include "app/restart/disk.h"
 #include "brief_report.h"
+#include "failure_list.h"
 #include "json.h"
 #include "peak_memory.h"
 #include "processor_time.h"
@@ -86,33 +87,6 @@ namespace abut::app
       return std::visit(Visitor(), value);
     }
 
-    /** Keys of examined() begin with it. */
-    const std::string examination = "examination/";
-
-    bool is_examined(const std::string &key)
-    {
-      return key.compare(0, examination.size(), examination) == 0;
-    }
-
-    /** Measures with their limits. */
-    void write_examination(
-        JsonWriter &json,
-        const std::vector<std::pair<std::string, Report::Value>> &values)
-    {
-      json.begin("examination");
-      for (const auto &[key, value] : values)
-        if (is_examined(key))
-        {
-          const auto &numbers = std::get<std::vector<double>>(value);
-          json.begin(key.substr(examination.size()));
-          json.value("value", numbers.at(0));
-          json.value("warning_above", numbers.at(1));
-          json.value("error_above", numbers.at(2));
-          json.end();
-        }
-      json.end();
-    }
-
     /** Name and remedy of each known failure that was warned of. */
     void write_failures(JsonWriter &json, const std::vector<std::string> &codes)
     {
@@ -122,7 +96,7 @@ namespace abut::app
         {
           json.begin(entry->code);
           json.value("name", std::string(entry->name));
-          json.value("remedy", std::string(entry->remedy));
+          json.value("remedy", remedy(*entry));
           json.end();
         }
       json.end();
@@ -215,6 +189,13 @@ namespace abut::app
       if (!number(figure.key))
         warn("Output/Expected: the results have no number '" + figure.key + "'."
              + did_you_mean(figure.key, keys()));
+  }
+
+  void Report::examined(const std::string &name, const double value,
+                        const double warning, const double error,
+                        const abut_failure failure)
+  {
+    measures[name] = {value, warning, error, failure};
   }
 
   void Report::declare_columns(const std::vector<std::string> &names)
@@ -349,11 +330,19 @@ namespace abut::app
     JsonWriter json(out);
     json.begin();
     for (const auto &[name, value] : values)
-      if (!is_examined(name))
-        std::visit([&json, &name = name](const auto &v)
-                   { json.value(name, v); },
-                   value);
-    write_examination(json, values);
+      std::visit([&json, &name = name](const auto &v) { json.value(name, v); },
+                 value);
+    json.begin("examination");
+    for (const auto &[name, measure] : measures)
+    {
+      json.begin(name);
+      json.value("value", measure.value);
+      json.value("warning_above", measure.warning);
+      json.value("error_above", measure.error);
+      json.value("code", std::string(abut_failure_get(measure.failure)->code));
+      json.end();
+    }
+    json.end();
     json.begin("expected");
     for (const ExpectedFigure &figure : expected)
       json.value(figure.key, figure.value);
@@ -495,10 +484,10 @@ namespace abut::app
     out << "\n";
     std::size_t width = 0;
     for (const auto &[name, value] : values)
-      if (!text_of(value).empty() && !is_examined(name))
+      if (!text_of(value).empty())
         width = std::max(width, name.size());
     for (const auto &[name, value] : values)
-      if (!text_of(value).empty() && !is_examined(name))
+      if (!text_of(value).empty())
         out << "  " << padded(name, width) << "  " << text_of(value) << "\n";
 
     print_model(out);

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,9 @@ namespace abut::app
     brief, ///< a screen: the results that a reader looks for first
     all    ///< each line of progress, and all figures with their keys
   };
+
+  /** Where a measure of the examination has no such limit. */
+  inline constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
 
   /** A figure of the summary whose value is known beforehand. */
   struct ExpectedFigure
@@ -99,6 +103,18 @@ namespace abut::app
 
     /** Warn of expected figures that the summary does not have. */
     void check_expected();
+
+    /** A measure of the examination of an answer, the limits above which it is
+     * a warning, and an error, and the failure that these name. Collected under
+     * the key `examination`; a later value of a measure replaces the earlier
+     * one. */
+    void examined(const std::string &name, double value, double warning,
+                  double error, abut_failure failure);
+
+    std::size_t n_examined() const
+    {
+      return measures.size();
+    }
     /** @} */
 
     /** @name Table `levels.csv` @{ */
@@ -186,7 +202,7 @@ namespace abut::app
     {
       double seconds = elapsed(), processor = used_processor_seconds();
       archive &seconds &processor &times &values &rows &warnings &codes;
-      archive &model_lines &left_out;
+      archive &model_lines &left_out &measures;
       count_from(seconds, processor);
     }
 
@@ -203,6 +219,17 @@ namespace abut::app
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
         archive &what &on &why &cost;
+      }
+    };
+
+    struct Measure
+    {
+      double value, warning, error;
+      abut_failure failure;
+
+      template <class Archive> void serialize(Archive &archive, unsigned int)
+      {
+        archive &value &warning &error &failure;
       }
     };
 
@@ -234,6 +261,7 @@ namespace abut::app
     std::vector<std::string> codes; ///< sorted, each once
     std::vector<ModelLine> model_lines;
     std::vector<std::string> left_out;
+    std::map<std::string, Measure> measures;
     std::vector<std::string> unused;
     std::vector<ExpectedFigure> expected;
   };

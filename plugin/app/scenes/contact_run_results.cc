@@ -3,7 +3,6 @@
 #include "contact_run.h"
 
 #include "diagnosis.h"
-#include "examined.h"
 #include "name_parameter.h"
 #include "shim/examination_limits.h"
 
@@ -166,12 +165,13 @@ namespace abut::app
     report_motions();
     if (!model.has_large_strain())
     {
-      examined(report, "largest_strain", examination.strain,
-               shim::visible_strain,
-               model.allows_large_strain() ? no_limit : shim::useless_strain);
-      examined(report, "mean_strain", examination.mean_strain, no_limit,
-               model.allows_large_strain() ? no_limit
-                                           : shim::useless_mean_strain);
+      const bool allows = model.allows_large_strain();
+      report.examined(
+          "largest_strain", examination.strain, shim::visible_strain,
+          allows ? no_limit : shim::useless_strain, ABUT_FAILURE_LARGE_STRAIN);
+      report.examined("mean_strain", examination.mean_strain, no_limit,
+                      allows ? no_limit : shim::useless_mean_strain,
+                      ABUT_FAILURE_LARGE_STRAIN);
     }
     report.set("largest_strain", examination.strain);
     report.set("deformation", examination.deformation);

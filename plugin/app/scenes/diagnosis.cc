@@ -2,7 +2,6 @@
 #include "diagnosis.h"
 
 #include "app/input/short_number.h"
-#include "examined.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,8 +104,11 @@ namespace abut::app
   {
     report.set("imbalance", imbalance);
     const bool is_exact = by.to_round_off && penalty == 0.;
-    examined(report, "imbalance", imbalance,
-             is_exact ? no_limit : visible_imbalance, useless_imbalance);
+    const abut_failure cause =
+        penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER;
+    report.examined("imbalance", imbalance,
+                    is_exact ? no_limit : visible_imbalance, useless_imbalance,
+                    cause);
     if (imbalance <= (is_exact ? useless_imbalance : visible_imbalance))
       return true;
     const std::string seen = "Forces are out of balance by "
@@ -133,9 +135,7 @@ namespace abut::app
                             "and contact forces far below the other forces.")
               : "the linear system was not solved to its tolerance. Try "
                     + digits + " or Solver/Linear solver = direct.";
-    const Message text =
-        coded(penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER,
-              seen + why);
+    const Message text = coded(cause, seen + why);
     if (!(imbalance <= useless_imbalance))
     {
       failure = text;
@@ -157,15 +157,17 @@ namespace abut::app
     const double least =
         tolerance_of_works * (works.size + length * works.force)
         + round_off_of_works * (works.apart + works.before);
+    const bool is_law = std::abs(works.open_gaps) > std::abs(unbalanced);
+    const abut_failure cause = is_law && works.open_gaps < 0. && penalty > 0.
+                                   ? ABUT_FAILURE_PENALTY
+                                   : ABUT_FAILURE_UNBALANCED;
     report.set("work_error", off > least ? part : 0.);
-    examined(report, "work_error", off > least ? part : 0., visible_work,
-             useless_work);
+    report.examined("work_error", off > least ? part : 0., visible_work,
+                    useless_work, cause);
     if (part <= visible_work || off <= least)
       return {};
-    const bool is_law = std::abs(works.open_gaps) > std::abs(unbalanced);
-    const bool is_soft = is_law && works.open_gaps < 0. && penalty > 0.;
     const Message text = coded(
-        is_soft ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_UNBALANCED,
+        cause,
         "Twice the energy, " + short_number(works.stored, 4)
             + ", differs from the work of loads, supports and contact by "
             + short_number(100. * part, 2) + " %. "
@@ -222,20 +224,21 @@ namespace abut::app
     if (condition == 0.)
       return;
     report.set("condition", condition);
-    examined(report, "condition", condition, large_condition, no_limit);
+    const abut_failure cause =
+        penalty > 0. ? ABUT_FAILURE_PENALTY : ABUT_FAILURE_LINEAR_SOLVER;
+    report.examined("condition", condition, large_condition, no_limit, cause);
     if (condition <= large_condition)
       return;
     const std::string seen = "Conjugate gradients found a condition number of "
                              + short_number(condition, 2)
                              + " although the matrix was " + "preconditioned. ";
     report.warn(
-        penalty > 0.
-            ? coded(ABUT_FAILURE_PENALTY,
-                    seen + "The penalty of " + short_number(penalty, 2)
-                        + " times the local stiffness is too large for "
-                          "multigrid: set Solver/Contact filter = true, or use "
-                          "a smaller Method/Penalty factor.")
-            : coded(ABUT_FAILURE_LINEAR_SOLVER,
-                    seen + "Try Solver/Linear solver = direct."));
+        coded(cause, penalty > 0.
+                         ? seen + "The penalty of " + short_number(penalty, 2)
+                               + " times the local stiffness is too large "
+                                 "for multigrid: set Solver/Contact filter "
+                                 "= true, or use a smaller Method/Penalty "
+                                 "factor."
+                         : seen + "Try Solver/Linear solver = direct."));
   }
 } // namespace abut::app

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures of a chart: errors and times over costs and parameters."""
 import math
-import re
 from typing import NamedTuple
 
 import numpy
@@ -27,22 +26,12 @@ class Axes(NamedTuple):
     front: str = ""  # of the rows on the Pareto front
 
 
-def quantity_words(key):
-    """'contact force', 'displacement of point 1 in x'."""
-    name, bracket, index = key.partition("[")
-    part = re.fullmatch(r"(pair|point|body)_(\d+)_?(.*)", name)
-    words = (f"{labels.words(part[3] or 'displacement')} of {part[1]} {part[2]}"
-             if part else labels.words(name))
-    return f"{words} in {'xyz'[int(index.rstrip(']'))]}" if bracket else words
-
-
 def error_label(chart):
     if chart.error_label:
         return chart.error_label
     relative = "relative " if chart.scale > 0 or not chart.is_error else ""
-    if chart.is_error:
-        return relative + labels.words(chart.quantity)
-    return f"{relative}error of the {quantity_words(chart.quantity)}"
+    of = "" if chart.is_error else "error of the "
+    return relative + of + labels.words(chart.quantity)
 
 
 def axis_words(curve):

@@ -7,6 +7,7 @@ from . import (draw_bodies, draw_curves, draw_membrane, draw_point_mass,
                draw_search, style)
 from .errors import InputError, Words, warn
 from .run_folder import RunFolder
+from .run_store import make_output_folder
 
 
 def pictures(run, width):
@@ -40,10 +41,7 @@ def main(words):
     arguments = parser.parse_args(words)
     run = RunFolder(arguments.folder)
     folder = arguments.output or run.path
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"--output {folder}: {error.strerror}.") from error
+    make_output_folder(folder)
     if not run.is_finished:
         warn("the run did not come to its end: pictures are of what it wrote.")
     wanted, drawn = arguments.picture, []

@@ -72,7 +72,7 @@ def _plane(run, mesh, contact, obstacles, width):
     figure, axes = style.figure(
         width, (aspect if zoom is None else
                 max(0.45, min(0.5 * aspect, 0.75))) * 0.9 + 0.08,
-        columns=n, gridspec_kw={"width_ratios": [1] * n})
+        columns=n)
     axes = axes[0]
     norm = _range(_stress(mesh))
     for axis in axes:
@@ -218,9 +218,10 @@ def _traction_curves(run):
     curves = []
     for number, table in run.pairs().items():
         key = f"pair_{number}_closed_form"
+        name = run.summary.get(key)
         if len(table["arc"]):
-            curves.append((number, table, run.table(f"{key}.csv"),
-                           run.summary.get(key)))
+            curves.append((number, table,
+                           run.table(f"{key}.csv") if name else None, name))
     return curves
 
 
@@ -253,27 +254,19 @@ def _tractions(run, curves, width):
     several = len(curves) > 1
     for i, (number, table, closed, name) in enumerate(curves):
         of = f", pair {number}" if several else ""
-        has_friction = abs(table["friction"]).max() > 0
-        if closed is not None:
-            for j, part in enumerate(("pressure", "friction")):
-                if abs(closed[part]).max() > 0:
-                    style.named(*axes.plot(
-                        *_broken(closed, part), color=style.BLACK,
-                        linestyle="-" if j == 0 else "--", linewidth=0.9,
-                        zorder=3, label=f"{part}, {name}{of}"),
-                        f"closed_{part}_{number}")
-        computed = {**style.curve_style(2 * i), **marker}
-        if closed is not None and not marker:
-            computed["linestyle"] = ""
-        style.named(*axes.plot(*_broken(table, "pressure"), **computed,
-                               label=f"pressure{of}"), f"pressure_{number}")
-        if has_friction:
-            computed = {**style.curve_style(2 * i + 1), **marker}
+        for j, (part, text) in enumerate((("pressure", "pressure"),
+                                          ("friction", "tangential traction"))):
+            if closed is not None and abs(closed[part]).max() > 0:
+                style.named(*axes.plot(
+                    *_broken(closed, part), color=style.BLACK,
+                    linestyle="-" if j == 0 else "--", linewidth=0.9, zorder=3,
+                    label=f"{text}, {name}{of}"), f"closed_{part}_{number}")
+            computed = {**style.curve_style(2 * i + j), **marker}
             if closed is not None and not marker:
                 computed["linestyle"] = ""
-            style.named(*axes.plot(*_broken(table, "friction"), **computed,
-                                   label=f"tangential traction{of}"),
-                        f"friction_{number}")
+            if j == 0 or abs(table[part]).max() > 0:
+                style.named(*axes.plot(*_broken(table, part), **computed,
+                                       label=text + of), f"{part}_{number}")
     axes.set_xlim(low, high)
     axes.set_xlabel(label("arc"))
     axes.set_ylabel("traction [force/area]")

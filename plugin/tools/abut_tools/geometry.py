@@ -5,6 +5,8 @@ import collections
 
 import numpy
 
+from .vtu import Mesh
+
 # Of VTK's cell types: the corners in the order around the cell, and triangles
 # of their points.
 QUAD, TRIANGLE, LINE = (9, 70), (5, 22, 69), (3, 21, 68)
@@ -67,8 +69,8 @@ def fine_triangles(mesh, points, values, most=20000):
             corners = (pattern[None] + len(s) * numpy.arange(len(cells))
                        [:, None, None]).reshape(-1, 3)
         else:
-            corners = triangles(type(mesh)(mesh.points, list(cells),
-                                           [kind] * len(cells), {}, {}))
+            corners = triangles(Mesh(mesh.points, list(cells),
+                                     [kind] * len(cells), {}, {}))
             all_points.append(points)
             all_values.append(values)
         all_triangles.append(corners + start)
@@ -178,7 +180,6 @@ def surface(mesh):
 def cut(mesh, height):
     """Points and fields of a mesh in space, as a plane mesh of triangles where
     the plane z = height cuts it. Cells are taken as tetrahedra."""
-    from .vtu import Mesh
     simplices = []
     for kind, cells in kinds(mesh):
         if kind in TETRAHEDRON:

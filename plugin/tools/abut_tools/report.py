@@ -2,14 +2,15 @@
 """`abut report`: one page about a run, without any other file."""
 import base64
 import io
-import os
 import pathlib
 
-from . import report_input, report_results, report_sketch, report_solution
+from . import draw, report_input, report_results, report_solution, style
 from .errors import InputError, Words, warn
 from .report_page import details, escape, figure, page, quoted
 from .report_verdict import Verdict
 from .run_folder import RunFolder
+from .run_store import write_at_once
+from .sketch import Sketch
 
 # Pictures with more text than this are stored as pixels.
 LARGEST_SVG = 250_000
@@ -42,9 +43,7 @@ def main(words):
     file = arguments.output or run.path / "report.html"
     text = report(run)
     try:
-        next_ = file.with_name(file.name + ".new")
-        next_.write_text(text, encoding="utf-8")
-        os.replace(next_, file)
+        write_at_once(file, text)
     except OSError as error:
         raise InputError(f"cannot write '{file}': {error.strerror}.") from error
     if not arguments.quiet:
@@ -75,11 +74,14 @@ def report(run):
 
 def problem(run):
     """The sketch beside the tables of bodies, obstacles and pairs."""
-    sketch = report_sketch.Sketch(run)
-    drawn = ""
+    sketch, drawn = Sketch(run), ""
     if sketch:
-        svg, notes = sketch.svg()
+        svg = style.svg_element(sketch.draw(), "sketch")
+        notes = (f'<span style="color:{colour}">&#9632;</span> {escape(text)}'
+                 if colour else escape(text) for text, colour in sketch.notes)
         drawn = figure(svg, "; ".join(notes) + ".", "Sketch of the problem")
+    elif run.has("outline.json"):
+        drawn = "<p>No sketch: the mesh has too many facets at its boundary.</p>"
     content = report_input.tables(run)
     return (f'<div class="side">{drawn}<div>{content}</div></div>'
             if drawn or content else "")
@@ -87,31 +89,25 @@ def problem(run):
 
 def pictures(run):
     """Those of `abut draw`. A page without them is better than none."""
-    from . import draw
     parts = []
     try:
-        for name, drawn in draw.pictures(run, draw.style.PAGE):
+        for name, drawn in draw.pictures(run, style.PAGE):
             words = CAPTIONS.get(name, name.replace("-", " ") + ".")
             parts.append(figure(
-                element(draw.style, drawn, f"picture{len(parts)}", words),
-                words, words))
+                element(drawn, f"picture{len(parts)}", words), words, words))
     except InputError as error:
         warn(f"pictures: {error}")
         parts.append(f"<p>No more pictures: {escape(error)}</p>")
     return "\n".join(parts)
 
 
-def element(style, drawn, prefix, words):
+def element(drawn, prefix, words):
     """A figure as <svg>, or as <img> where that would be large."""
-    file = io.StringIO()
-    drawn.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
-    text = file.getvalue()
+    text = style.svg_element(drawn, prefix)
     if len(text) <= LARGEST_SVG:
-        style.pyplot.close(drawn)
-        return report_sketch.inline(text, prefix)
+        return text
     pixels = io.BytesIO()
     drawn.savefig(pixels, format="png", dpi=RESOLUTION,
                   metadata={"Software": None})
-    style.pyplot.close(drawn)
     return (f'<img alt="{escape(words)}" src="data:image/png;base64,'
             f'{base64.b64encode(pixels.getvalue()).decode()}">')

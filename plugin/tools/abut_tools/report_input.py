@@ -56,7 +56,9 @@ def name(path):
 def parameters(run):
     """Parameters with other values than the defaults, the others folded."""
     given, others = [], []
-    not_used = " ".join(run.summary.get("not_used", []))
+    # "Section/Name: reason"
+    not_used = {line.partition(": ")[0]
+                for line in run.summary.get("not_used", [])}
     for path, parameter in run.parameters.items():
         where = pointer("parameters", path)
 
@@ -68,7 +70,7 @@ def parameters(run):
             others.append([name(path), text("value")])
         else:
             note = ' <span class="soft">not used by this run</span>' \
-                if path and path in not_used else ""
+                if path in not_used else ""
             given.append([name(path),
                           text("value") + note, text("default"),
                           quoted(parameter["origin"],

@@ -12,6 +12,8 @@ them with the files.
 import html
 import math
 
+from . import labels
+
 STYLE = """
 :root { --ink: #1b1f24; --soft: #5b6470; --line: #d5d9de; --pale: #f5f6f8;
   --good: #00734f; --warn: #8a5a00; --bad: #b23a00; --cool: #0072b2; }
@@ -146,6 +148,14 @@ def table(head, rows, caption="", numeric=()):
             for i, content in enumerate(row)) + "</tr>")
     lines.append("</tbody></table></div>")
     return "\n".join(lines)
+
+
+def labelled(key, table=None):
+    """Words and dimension of a key, of pairs without pair_N_ in labels.PAIR."""
+    text, _, dimension = table[key] if table and key in table \
+        else labels.entry(key)
+    return escape(text) + (f' <span class="unit">[{escape(dimension)}]</span>'
+                           if dimension else "")
 
 
 def details(summary, content):

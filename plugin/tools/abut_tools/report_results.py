@@ -3,24 +3,41 @@
 points; and the examination of the answer."""
 import re
 
-from . import report_labels as labels
-from .report_page import details, number, pointer, quoted, table, values
+from .labels import PAIR
+from .report_page import (details, labelled, number, pointer, quoted, table,
+                          values)
+
+# Of PAIR, what most readers look for.
+MAIN = ("force", "moment", "pressure", "contact_area", "penetration", "slip",
+        "normal_force", "friction", "friction_ratio", "active", "slipping")
+
+# Of the whole run, in the order of the page.
+RUN = ("contact_force", "largest_contact_force", "contact_impulse",
+       "first_contact_time", "last_contact_time", "n_touches",
+       "max_penetration", "allowed_penetration", "max_complementarity",
+       "active", "constraints", "lambda", "displacement", "velocity",
+       "momentum", "friction_force", "friction_over_normal", "n_slipping",
+       "dissipation", "energy", "kinetic_energy", "strain_energy",
+       "contact_energy", "dissipated_energy", "external_work",
+       "initial_energy", "energy_balance", "energy_gain", "energy_loss",
+       "energy_lost_in_impacts", "l2_error", "h1_error", "energy_norm_error",
+       "nodal_error", "energy_error", "estimate", "estimated_error",
+       "target_error", "effectivity", "energy_order", "time", "dofs", "cells",
+       "nodes", "facets", "candidates", "contact_elements", "pairs",
+       "pairs_with_area", "common_area", "uncovered_area", "smallest_gap",
+       "largest_gap", "initial_overlaps", "largest_overlap", "ns_per_node",
+       "bytes_per_facet")
 
 
 def results(run):
     parts = [expected(run), pairs(run),
              numbered(run, "body", "Bodies",
-                      {"reaction": ("reaction of its supports", "force"),
-                       "body_moved": ("moved in the mean by", "length"),
-                       "body_rotated": ("rotated in the mean by", "radian")}),
+                      ("reaction", "body_moved", "body_rotated")),
              numbered(run, "obstacle", "Obstacles moved by forces",
-                      {"obstacle_displacement": ("displacement", "length"),
-                       "obstacle_velocity": ("velocity", "length/time"),
-                       "obstacle_force": ("force of contact", "force")}),
-             numbered(run, "point", "Points",
-                      {"point_node": ("nearest node", "length"),
-                       "point": ("displacement", "length")}),
-             figures(run, labels.RUN, "Whole run")]
+                      ("obstacle_displacement", "obstacle_velocity",
+                       "obstacle_force")),
+             numbered(run, "point", "Points", ("point_node", "point")),
+             figures(run, RUN, "Whole run")]
     if run.kind == "solid" and run.parameter("Dimension") != "3" and \
             run.parameter("Solid/Plane") != "axisymmetric":
         parts.append('<p class="soft">In the plane, forces and energies are '
@@ -41,20 +58,6 @@ def look_up(summary, key):
     return value, pointer(name)
 
 
-def words_of(key):
-    """A key of the summary in words."""
-    name, bracket, entry = key.partition("[")
-    axis = " " + "xyz"[int(entry.rstrip("]"))] if bracket and \
-        entry.rstrip("]") in "012" else ""
-    pair = re.fullmatch(r"pair_(\d+)_(.*)", name)
-    if pair:
-        return (f"pair {pair.group(1)}: {labels.PAIR.get(pair.group(2), (pair.group(2).replace('_', ' '), ''))[0]}"
-                + axis + labels.unit(labels.PAIR.get(pair.group(2),
-                                                     ("", ""))[1]))
-    known = labels.RUN.get(name, (name.replace("_", " "), ""))
-    return known[0] + axis + labels.unit(known[1])
-
-
 def expected(run):
     """Results beside the values that the scene expects."""
     rows = []
@@ -69,7 +72,7 @@ def expected(run):
             error = "off by " + number(found - value, of, "difference", 2)
         else:
             error = number(abs((found - value) / value), of, "error", 2)
-        rows.append([words_of(key), number(found, of[0]), number(value, of[1]),
+        rows.append([labelled(key), number(found, of[0]), number(value, of[1]),
                      error])
     return rows and "<h3>Compared with expected values</h3>\n" + table(
         ["", "result", "expected", "relative error"], rows,
@@ -86,15 +89,15 @@ def pairs(run):
     if not found:
         return ""
     names = {name for of_pair in found.values() for name in of_pair}
-    order = [name for name in labels.PAIR if name in names]
+    order = [name for name in PAIR if name in names]
     order += sorted(names - set(order))
 
     def rows(main):
-        return [[labels.label(labels.PAIR, name)] + [
+        return [[labelled(name, PAIR)] + [
             values(run.summary[of_pair[name]],
                    f"summary.json#{pointer(of_pair[name])}")
             if name in of_pair else "" for of_pair in found.values()]
-            for name in order if (name in labels.MAIN) == main]
+            for name in order if (name in MAIN) == main]
 
     head = [""] + [pair_name(run, pair) for pair in found]
     numeric = range(1, len(found) + 1)
@@ -124,25 +127,27 @@ def numbered(run, what, heading, names):
                 columns.append(name)
     if not found:
         return ""
-    columns.sort(key=list(names).index)
+    columns.sort(key=names.index)
     rows = [[f"{what} {i}"] + [
         values(run.summary[keys[name]], f"summary.json#{pointer(keys[name])}")
         if name in keys else "" for name in columns]
         for i, keys in sorted(found.items())]
     return f"<h3>{heading}</h3>\n" + table(
-        [""] + [labels.label(names, name) for name in columns], rows,
+        [""] + [labelled(name.partition("_")[2] or
+                         ("displacement" if name == what else name))
+                for name in columns], rows,
         numeric=range(1, len(columns) + 1))
 
 
-def figures(run, of_labels, heading):
+def figures(run, keys, heading):
     """Figures of a list that the run has; long vectors are in the tables."""
     rows = []
-    for key in of_labels:
+    for key in keys:
         value = run.summary.get(key)
         if value is None or (isinstance(value, list) and len(value) > 6):
             continue
         where = f"summary.json#{pointer(key)}"
-        rows.append([labels.label(of_labels, key),
+        rows.append([labelled(key),
                      quoted(value, where) if isinstance(value, str)
                      else values(value, where)])
     return rows and (f"<h3>{heading}</h3>\n" if heading else "") + table(
@@ -157,15 +162,11 @@ def examination(run):
         value, warning, error = (measure[key] for key in (
             "value", "warning_above", "error_above"))
         tone, verdict = judged(value, warning, error)
-        pair = re.fullmatch(r"pair_(\d+)_(.*)", name)
-        key = pair.group(2) if pair else name
-        words, code = labels.EXAMINATION.get(key, (key.replace("_", " "), ""))
-        if pair:
-            words = f"pair {pair.group(1)}: {labels.label(labels.PAIR, key)}"
-        rows.append([words, number(value, f"{where}/value", digits=3),
+        rows.append([labelled(name), number(value, f"{where}/value", digits=3),
                      number(warning, f"{where}/warning_above", digits=3),
                      number(error, f"{where}/error_above", digits=3),
-                     f'<span class="{tone}">{verdict}</span>', code])
+                     f'<span class="{tone}">{verdict}</span>',
+                     quoted(measure["code"], f"{where}/code")])
     if not rows:
         return ""
     return table(["measure", "value", "warning above", "error above", "",

@@ -4,19 +4,24 @@ import math
 
 import numpy
 
-from . import report_labels as labels
 from . import style
-from .report_page import (details, escape, figure, number, pointer, quoted,
-                          table)
+from .report_page import (details, escape, figure, labelled, number, pointer,
+                          quoted, table)
 from .report_results import figures
-from .report_sketch import svg_of
+from .style import svg_element
+
+# What a run tells of its effort, in the order of the page.
+EFFORT = ("method", "discretisation", "linear_solver", "load_steps",
+          "load_steps_cut_back", "time_steps", "nonlinear_iterations",
+          "linearisations", "linear_iterations", "matvecs", "searches",
+          "search_reuses", "fallback_steps", "stable_time_step")
 
 # Rows of a table on the page; of more there are the first and the last.
 MOST_ROWS, FIRST, LAST = 24, 4, 12
 
 
 def process(run):
-    parts = [figures(run, labels.EFFORT, ""), convergence(run), levels(run),
+    parts = [figures(run, EFFORT, ""), convergence(run), levels(run),
              modelled(run), could_be_left_out(run)]
     return "\n".join(part for part in parts if part)
 
@@ -37,7 +42,7 @@ def convergence(run):
     else:
         return ""
     return "<h3>Convergence</h3>\n" + figure(
-        svg_of(drawn, "convergence"), caption, "Convergence of the iteration")
+        svg_element(drawn, "convergence"), caption, "Convergence of the iteration")
 
 
 def ends(*columns):
@@ -112,9 +117,11 @@ def levels(run):
                       else value, f"levels.csv:{name}:{row}", digits=5)
     caption = ("The first and the last rows of levels.csv, "
                f"which has {number(n, 'levels.csv', 'rows')}."
-               if n > MOST_ROWS else "levels.csv")
+               if n > MOST_ROWS else "levels.csv.") + (
+                   " Columns that are empty or zero are left out."
+                   if len(shown) < len(columns) else "")
     return "<h3>Meshes and steps</h3>\n" + table(
-        [escape(labels.column(name)) for name in shown],
+        [labelled(name) for name in shown],
         [[cell(name, row) for name in shown] for row in rows], caption,
         numeric=range(len(shown)))
 
@@ -187,6 +194,12 @@ KINDS = (
     ("parameters.json", "all parameters with their values"),
     ("run.json", "how the run was started and how it ended"),
     ("outline.json", "outline of the bodies for sketches"),
+    ("obstacles.vtu", "surfaces of rigid obstacles"),
+    ("primary.vtu", "primary surface"),
+    ("secondary.vtu", "secondary surface with the results of the search"),
+    ("candidates.csv", "a row for each node and candidate"),
+    ("motion.csv", "a row for each time step"),
+    ("_closed_form.csv", "closed form of tractions on a contact line"),
     ("levels.csv", "a row for each mesh, load step or time step"),
     ("steps.csv", "a row for each linear system"),
     ("newton.csv", "a row for each linearisation"),
@@ -207,7 +220,7 @@ def files(run):
     rows, series = [], {}
     names = [path for path in sorted(run.path.iterdir())
              if path.is_file() and not path.name.startswith(".")
-             and path.name not in ("report.html", "report.html.new")]
+             and path.name not in ("report.html", "report.html.part")]
     for path in names:
         what = next((words for ending, words in KINDS
                      if path.name.endswith(ending)), "")

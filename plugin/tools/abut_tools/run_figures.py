@@ -15,7 +15,6 @@
 In place of a column there may be the ratio of two, `a/b`. mean, ripple and
 largest may have a range of times, `mean(contact_force, 1, 2)`: rows after the
 first time, up to the second."""
-import csv
 import json
 import math
 import pathlib
@@ -24,6 +23,7 @@ import re
 import numpy
 
 from .nearest_word import did_you_mean, nearest_word
+from .run_folder import read_table
 
 
 def read_json(path):
@@ -70,15 +70,8 @@ class RunFigures:
     def __init__(self, folder):
         folder = pathlib.Path(folder)
         self.summary = read_json(folder / "summary.json")
-        self.columns = {}
-        try:
-            with open(folder / "levels.csv") as file:
-                names, *rows = csv.reader(file)
-        except (OSError, ValueError):
-            return
-        for name, *cells in zip(names, *rows):
-            self.columns[name] = numpy.array(
-                [float(cell) if cell else math.nan for cell in cells])
+        table = folder / "levels.csv"
+        self.columns = read_table(table) if table.is_file() else {}
 
     def value(self, name):
         """A number by name, None if it is missing or not finite."""

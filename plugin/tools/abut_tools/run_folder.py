@@ -104,21 +104,14 @@ class RunFolder:
         return (self.path / name).is_file()
 
     def table(self, name):
-        """Columns of a CSV file by name, as arrays of numbers (NaN where a
-        place is empty) or of texts. Rows that a killed run has left half
-        written are left out; None where the file is missing."""
-        if not self.has(name):
-            return None
-        with open(self.path / name, encoding="utf-8", newline="") as file:
-            names, *rows = list(csv.reader(file)) or [[]]
-        rows = [row for row in rows if len(row) == len(names)]
-        return {column: _column([row[i] for row in rows])
-                for i, column in enumerate(names)}
+        """The columns of read_table(); None where the file is missing."""
+        return read_table(self.path / name) if self.has(name) else None
 
     def pairs(self):
         """The tables pair_1.csv, pair_2.csv, ... by number."""
-        found = {int(re.findall(r"\d+", path.name)[0]): self.table(path.name)
-                 for path in self.path.glob("pair_*.csv")}
+        found = {int(path.stem[5:]): self.table(path.name)
+                 for path in self.path.glob("pair_*.csv")
+                 if path.stem[5:].isdigit()}
         return dict(sorted(found.items()))
 
     def fields(self, name):
@@ -146,6 +139,17 @@ class RunFolder:
         except ValueError as error:
             raise InputError(f"{self.path / name} is not complete: {error}."
                              ) from error
+
+
+def read_table(path):
+    """Columns of a CSV file by name, as arrays of numbers (NaN where a place is
+    empty) or of texts. Rows that a killed run has left half written are left
+    out."""
+    with open(path, encoding="utf-8", newline="") as file:
+        names, *rows = list(csv.reader(file)) or [[]]
+    rows = [row for row in rows if len(row) == len(names)]
+    return {column: _column([row[i] for row in rows])
+            for i, column in enumerate(names)}
 
 
 def _column(texts):

@@ -2,6 +2,7 @@
 """One look for all pictures: colours for every kind of colour vision, markers and
 dashes with them, fonts of 8 pt, and widths of a column or a page. Equal data give
 equal files."""
+import io
 import itertools
 import math
 import re
@@ -181,6 +182,23 @@ def letters(all_axes):
         for axes, letter in zip(all_axes, itertools.count()):
             axes.text(0.0, 1.0, f"({chr(97 + letter)})", fontweight="bold",
                       transform=axes.transAxes, ha="right", va="bottom")
+
+
+def svg_element(of_figure, prefix):
+    """A figure as an <svg> element of a page, in which ids must be its own. The
+    figure is closed."""
+    file = io.StringIO()
+    of_figure.savefig(file, format="svg",
+                      metadata={"Date": None, "Creator": None})
+    pyplot.close(of_figure)
+    svg = file.getvalue()
+    svg = svg[svg.index("<svg"):].strip()
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+    svg = re.sub(r' xmlns(:xlink)?="[^"]*"', "", svg).replace("xlink:href",
+                                                             "href")
+    for before in ('id="', 'href="#', "url(#"):
+        svg = svg.replace(before, before + prefix + "-")
+    return svg
 
 
 def save(of_figure, folder, name):

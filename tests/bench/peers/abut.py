@@ -2,11 +2,15 @@
 """Abut: writes the meshes and a scene `solid`, runs it, reads its files."""
 import json
 import os
+import pathlib
+import sys
 
 import gmsh_file
 import hexmesh
 import process
-import vtu_file
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "app"))
+import vtu  # noqa: E402
 
 # Files hold single precision, and refinement puts nodes of a curved body a bit
 # elsewhere; they are much farther apart, in units of the size of facets.
@@ -96,8 +100,20 @@ end
 """ + "".join(sections) + f"subsection Pair 1\n{pair}end\n"
 
 
+def _read(path):
+    """Points, and rows of fields by name."""
+    points, fields = [], {}
+    for piece in vtu.pieces(path):
+        points += piece.points
+        for name, values in piece.fields.items():
+            width = len(values) // len(piece.points)
+            fields.setdefault(name, []).extend(
+                values[i:i + width] for i in range(0, len(values), width))
+    return points, fields
+
+
 def _displacements(problem, path):
-    points, fields = vtu_file.read(path)
+    points, fields = _read(path)
     places = [hexmesh.Places(body["nodes"], NEAR * problem["size"])
               for body in problem["bodies"]]
     moved = [[None] * len(body["nodes"]) for body in problem["bodies"]]
@@ -111,7 +127,7 @@ def _displacements(problem, path):
 def _pressure(problem, path):
     """node -> pressure on the secondary body, which is the upper one: the
     other side's traction points down."""
-    points, fields = vtu_file.read(path)
+    points, fields = _read(path)
     number, face = problem["contact"]["secondary"]
     body = problem["bodies"][number]
     nodes = hexmesh.face_nodes(body, face)

@@ -43,8 +43,7 @@ namespace abut::app
     names = names_of(extras, this->triangulation);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);
-    // A check writes nothing, and has no checkpoints.
-    if (run.options.restart != nullptr)
+    if (!run.options.output_folder.empty())
       write_outline<dim>(run.options.output_folder, run.communicator,
                          this->triangulation,
                          [this](const dealii::types::boundary_id id) {

@@ -93,8 +93,7 @@ namespace abut::app
       run.report.warn(warning);
     for (const std::vector<bool> &marked : bisections)
       bodies.refine(marked, this->triangulation);
-    // A check writes nothing, and has no checkpoints.
-    if (run.options.restart == nullptr)
+    if (run.options.output_folder.empty())
       return;
     write_outline<dim>(
         run.options.output_folder, run.communicator, this->triangulation,
@@ -104,6 +103,7 @@ namespace abut::app
           const boundary_id id = bodies.user_id(number);
           return SurfaceName{body + 1, id, bodies.names(body).names_of(id)};
         });
+    output.write_obstacle_surfaces(0.);
   }
 
   template <int dim>

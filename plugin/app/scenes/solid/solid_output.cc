@@ -227,13 +227,14 @@ namespace abut::app
     if (!model.parameters.fields)
       write_present();
     SectionTimes::Scope scope(model.run.report.times, "output");
-    write_obstacle_surfaces();
+    write_obstacle_surfaces(model.run.u.linfty_norm());
     write_closed_forms();
     if (model.motion)
       model.motion->write_table();
   }
 
-  template <int dim> void SolidOutput<dim>::write_obstacle_surfaces() const
+  template <int dim>
+  void SolidOutput<dim>::write_obstacle_surfaces(const double motion) const
   {
     const auto obstacles = model.pairs->moved_obstacles();
     if (obstacles.empty())
@@ -241,7 +242,6 @@ namespace abut::app
     const MPI_Comm communicator = model.run.communicator;
     dealii::BoundingBox<dim> box =
         dealii::GridTools::compute_bounding_box(model.triangulation);
-    const double motion = model.run.u.linfty_norm();
     auto &[low, high] = box.get_boundary_points();
     double size = 0.;
     for (unsigned int d = 0; d < dim; ++d)

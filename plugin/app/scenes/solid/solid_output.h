@@ -49,6 +49,10 @@ namespace abut::app
      * solution unless they are there, and surfaces of obstacles. Collective. */
     void finish();
 
+    /** Surfaces of obstacles near the bodies, which have moved by up to
+     * @p motion, as obstacles.vtu. Collective. */
+    void write_obstacle_surfaces(double motion) const;
+
     /** Displacement and forces at all nodes of the present mesh as nodal.csv.
      * Collective. */
     void write_nodal_values() const;
@@ -63,7 +67,6 @@ namespace abut::app
     double time() const;
     void write_present();
     void write_contact(const la::Vector &displacement);
-    void write_obstacle_surfaces() const;
     void write_closed_forms() const;
     /** Values along the contact boundary of a pair, on rank 0. */
     std::vector<ContactLine> lines_of(const ContactPair<dim> &pair,

@@ -8,7 +8,6 @@
 #include "app/physics/linear_stiffness.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
-#include "app/scenes/examined.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
 #include "shim/by_element.h"
@@ -216,8 +215,8 @@ namespace abut::app
     {
       const std::string key = "pair_" + std::to_string(++number);
       report.set(key + "_transfer_error", error);
-      examined(report, key + "_transfer_error", error, visible_transfer_error,
-               no_limit);
+      report.examined(key + "_transfer_error", error, visible_transfer_error,
+                      no_limit, ABUT_FAILURE_TRANSFER);
       if (error > visible_transfer_error)
         report.warn(coded(
             ABUT_FAILURE_TRANSFER,
@@ -361,17 +360,23 @@ namespace abut::app
     const double large = scale.limit(shim::useless);
     const double closed = std::max(0., result.penetration);
     if (method.user_law == nullptr)
-      examined(report, key + "penetration", result.penetration, no_limit,
-               contact.results().measures().allowed_penetration + large);
-    examined(report, key + "held_inside", result.held_inside, no_limit, large);
-    examined(report, key + "between_rows", result.between_rows,
-             pair.obstacle ? closed + large : no_limit,
-             pair.obstacle ? no_limit : closed + large);
+      report.examined(key + "penetration", result.penetration, no_limit,
+                      contact.results().measures().allowed_penetration + large,
+                      ABUT_FAILURE_PENALTY);
+    report.examined(key + "held_inside", result.held_inside, no_limit, large,
+                    ABUT_FAILURE_HELD_NODES);
+    report.examined(key + "between_rows", result.between_rows,
+                    pair.obstacle ? closed + large : no_limit,
+                    pair.obstacle ? no_limit : closed + large,
+                    pair.obstacle ? ABUT_FAILURE_UNSEEN
+                                  : ABUT_FAILURE_COARSE_SECONDARY);
     if (pair.obstacle)
-      examined(report, key + "gap_error", result.gap_error,
-               scale.limit(shim::visible_gap_error), large);
-    examined(report, key + "turn", result.rotation, shim::visible_rotation,
-             model.allows_large_strain() ? no_limit : shim::useless);
+      report.examined(key + "gap_error", result.gap_error,
+                      scale.limit(shim::visible_gap_error), large,
+                      ABUT_FAILURE_SLIDING);
+    report.examined(key + "turn", result.rotation, shim::visible_rotation,
+                    model.allows_large_strain() ? no_limit : shim::useless,
+                    ABUT_FAILURE_SLIDING);
   }
 
   /* Parts of the normal force, with that on prescribed nodes, which have no
@@ -587,7 +592,8 @@ namespace abut::app
     const double locked =
         volumetric_locking(elasticity.mapping, elasticity.dof_handler,
                            elasticity.ghosted(u), model.data.materials);
-    examined(report, "volumetric_locking", locked, visible_locking, no_limit);
+    report.examined("volumetric_locking", locked, visible_locking, no_limit,
+                    ABUT_FAILURE_LOCKING);
     if (locked > visible_locking)
       report.warn(coded(ABUT_FAILURE_LOCKING,
                         short_number(100. * locked, 2)
@@ -607,8 +613,8 @@ namespace abut::app
     const double locked = linear_stiffness_error(
         elasticity.mapping, elasticity.dof_handler, elasticity.ghosted(u),
         model.data.materials, parameters.has_large_strain());
-    examined(report, "linear_stiffness_error", locked, visible_stiffness,
-             no_limit);
+    report.examined("linear_stiffness_error", locked, visible_stiffness,
+                    no_limit, ABUT_FAILURE_LOCKING);
     if (locked <= visible_stiffness)
       return locked;
     const std::string cells = dim == 2 ? "triangles" : "tetrahedra";

@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A sketch of the problem: outlines with boundary ids, supports and loads as
 symbols, pairs coloured, obstacles. From outline.json, obstacles.vtu and
-parameters.json."""
-import io
+parameters.json. `abut check --draw` makes a file of it, `abut report` a part of
+its page."""
 import json
+import math
 import re
 
 import numpy
+from matplotlib import lines
+from matplotlib.collections import LineCollection
+from matplotlib.patches import PathPatch, Polygon
+from matplotlib.path import Path
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from . import style
+from .errors import InputError, Words
+from .run_folder import RunFolder
 from .vtu import read_mesh
 
 # Width of the picture, and its largest height, in mm.
@@ -155,21 +163,37 @@ def loops(surfaces):
     return result
 
 
+def filled(lines_of_body):
+    """The part of the plane between closed lines: holes run the other way
+    round."""
+    corners, codes = [], []
+    for line in lines_of_body:
+        depth = sum(Path(other).contains_point(line[0])
+                    for other in lines_of_body if other is not line)
+        x, y = line.T
+        if (x @ numpy.roll(y, -1) > y @ numpy.roll(x, -1)) == (depth % 2 == 1):
+            line = line[::-1]
+        corners += [*line, line[0]]
+        codes += [Path.MOVETO] + [Path.LINETO] * (len(line) - 1) + [
+            Path.CLOSEPOLY]
+    return Path(corners, codes)
+
+
 class Sketch:
-    """Draws into axes."""
+    """Draws outlines; false where there are none."""
 
     def __init__(self, run):
         self.run = run
         self.surfaces, self.dimension = read_surfaces(run)
         self.obstacles = read_obstacles(run, self.dimension) \
             if self.surfaces else {}
-        self.notes = []  # what symbols and colours mean
+        self.notes = []  # what symbols mean, and their colour or ""
 
     def __bool__(self):
         return bool(self.surfaces)
 
-    def svg(self):
-        """The sketch as SVG, and what its symbols mean."""
+    def draw(self):
+        """The sketch as a figure."""
         width, height = self.shape()
         figure = style.pyplot.figure(figsize=(width * style.MM,
                                               height * style.MM))
@@ -177,7 +201,10 @@ class Sketch:
             self.draw_plane(figure.add_subplot())
         else:
             self.draw_space(figure.add_subplot(projection="3d"))
-        return svg_of(figure, "sketch"), self.notes
+        return figure
+
+    def note(self, text, colour=""):
+        self.notes.append((text, colour))
 
     def box(self):
         points = numpy.concatenate([each.points for each in self.surfaces])
@@ -236,19 +263,14 @@ class Sketch:
         self.size = (high - low).max()
         for body in sorted({each.body for each in self.surfaces}):
             of_body = [each for each in self.surfaces if each.body == body]
-            path = []
-            codes = []
-            for loop in loops(of_body):
-                path += [*loop, loop[0]]
-                codes += [1] + [2] * (len(loop) - 1) + [79]
-            if path:
-                axes.add_patch(style.matplotlib.patches.PathPatch(
-                    style.matplotlib.path.Path(path, codes), facecolor=BODY,
-                    edgecolor="none"))
+            closed = loops(of_body)
+            if closed:
+                axes.add_patch(PathPatch(filled(closed), facecolor=BODY,
+                                         edgecolor="none"))
             for surface in of_body:
-                lines = surface.points[surface.facets]
-                axes.add_collection(style.matplotlib.collections.LineCollection(
-                    lines, colors="#808890", linewidths=0.8))
+                axes.add_collection(LineCollection(
+                    surface.points[surface.facets], colors="#808890",
+                    linewidths=0.8))
         # What scales must know before symbols are drawn.
         margin = 0.16 * self.size
         axes.set_xlim(low[0] - margin, high[0] + margin)
@@ -270,9 +292,9 @@ class Sketch:
             f"{surface.body}: {surface.id}" if several else str(surface.id))
 
     def note_names(self):
-        self.notes.append("numbers: bodies and boundary ids"
-                          if len(self.run.sections("Body")) > 1
-                          else "numbers and names: boundary ids")
+        self.note("numbers: bodies and boundary ids"
+                  if len(self.run.sections("Body")) > 1
+                  else "numbers and names: boundary ids")
 
     def outward(self, surface, place, normal):
         """The normal that points away from the body's middle."""
@@ -297,14 +319,12 @@ class Sketch:
         return crossings % 2 == 1
 
     def draw_obstacles(self, axes):
-        for number, lines in self.obstacles.items():
-            if len(lines) == 0:
-                continue
-            axes.add_collection(style.matplotlib.collections.LineCollection(
-                lines, colors="#303030", linewidths=1.6))
+        for number, facets in self.obstacles.items():
+            axes.add_collection(LineCollection(facets, colors="#303030",
+                                               linewidths=1.6))
             low, high = numpy.array(axes.get_xlim()), numpy.array(
                 axes.get_ylim())
-            seen = lines.mean(axis=1)
+            seen = facets.mean(axis=1)
             seen = seen[(seen[:, 0] > low[0]) & (seen[:, 0] < low[1])
                         & (seen[:, 1] > high[0]) & (seen[:, 1] < high[1])]
             if len(seen):
@@ -312,8 +332,8 @@ class Sketch:
                 axes.annotate(f"obstacle {number}", place, fontsize=7,
                               xytext=(-2, 5), textcoords="offset points",
                               ha="right")
-        if any(len(lines) for lines in self.obstacles.values()):
-            self.notes.append("black lines: rigid obstacles at time 0")
+        if self.obstacles:
+            self.note("black lines: rigid obstacles at time 0")
 
     def draw_pairs(self, axes):
         for number, secondary, primary, obstacle in self.pairs():
@@ -321,24 +341,22 @@ class Sketch:
             for surfaces, width, dashes in (
                     (secondary, 3.2, "-"), (primary, 2.2, (0, (2, 1)))):
                 for surface in surfaces:
-                    axes.add_collection(
-                        style.matplotlib.collections.LineCollection(
-                            surface.points[surface.facets], colors=colour,
-                            linewidths=width, linestyles=dashes, zorder=3))
-            self.notes.append(
-                f'<span style="color:{colour}">&#9632;</span> pair {number}: '
-                "secondary surface (full line)"
+                    axes.add_collection(LineCollection(
+                        surface.points[surface.facets], colors=colour,
+                        linewidths=width, linestyles=dashes, zorder=3))
+            self.note(
+                f"pair {number}: secondary surface (full line)"
                 + (" and primary surface (dashed)" if primary else
-                   f" and obstacle {obstacle}" if obstacle != "none" else ""))
+                   f" and obstacle {obstacle}" if obstacle != "none" else ""),
+                colour)
 
     def draw_supports(self, axes):
         any_drawn = is_clamped = False
         for surface, words in self.supports():
-            prescribed = [word for word in words if word != "free"]
-            if len(prescribed) == 2:
+            if "free" not in words:
                 is_clamped = True
-                self.clamp(axes, surface, any(word not in ("0", "0.")
-                                              for word in prescribed))
+                self.clamp(axes, surface, any(value_of(word) != 0
+                                              for word in words))
                 continue
             for direction, word in enumerate(words):
                 if word == "free":
@@ -346,28 +364,25 @@ class Sketch:
                 any_drawn = True
                 for place, normal in surface.samples(5):
                     out = self.outward(surface, place, normal)
-                    # A membrane is supported as a whole.
-                    unit = out if len(words) == 1 else numpy.eye(2)[direction]
+                    unit = numpy.eye(2)[direction]
                     towards = unit * (1 if unit @ out >= 0 else -1)
-                    self.triangle(axes, place, towards,
-                                  word not in ("0", "0."))
+                    self.triangle(axes, place, towards, value_of(word) != 0)
         if any_drawn:
-            self.notes.append("triangles: displacement prescribed along their "
-                              "axis, filled where it is not 0")
-
+            self.note("triangles: displacement prescribed along their axis, "
+                      "filled where it is not 0")
         if is_clamped:
-            self.notes.append("hatched: displacement prescribed in all "
-                              "directions, thick where it is not 0")
+            self.note("hatched: displacement prescribed in all directions, "
+                      "thick where it is not 0")
 
     def clamp(self, axes, surface, is_moved):
         """Short lines away from the body."""
-        lines = []
+        hatches = []
         for place, normal in surface.samples(15):
             out = self.outward(surface, place, normal)
             across = numpy.array([-out[1], out[0]])
-            lines.append([place, place + 0.03 * self.size * (out + across)])
-        axes.add_collection(style.matplotlib.collections.LineCollection(
-            lines, colors=SUPPORT, linewidths=1.6 if is_moved else 0.7,
+            hatches.append([place, place + 0.03 * self.size * (out + across)])
+        axes.add_collection(LineCollection(
+            hatches, colors=SUPPORT, linewidths=1.6 if is_moved else 0.7,
             zorder=2))
 
     def triangle(self, axes, place, towards, is_moved):
@@ -375,24 +390,25 @@ class Sketch:
         size = 0.022 * self.size
         corners = [place, place + size * (1.6 * towards + across),
                    place + size * (1.6 * towards - across)]
-        axes.add_patch(style.matplotlib.patches.Polygon(
+        axes.add_patch(Polygon(
             corners, closed=True, edgecolor=SUPPORT, linewidth=0.7, zorder=4,
             facecolor=SUPPORT if is_moved else "white"))
 
     def draw_loads(self, axes):
-        any_drawn = False
+        any_drawn = any_dots = False
         for surface, name, words in self.loads():
+            load = [value_of(word) for word in words]
+            if not any(value != 0 for value in load):
+                continue
             for place, normal in surface.samples(7):
+                if None in load:
+                    axes.plot(*place, "o", color=LOAD, markersize=3, zorder=4)
+                    any_dots = True
+                    continue
                 out = self.outward(surface, place, normal)
-                towards = -out
-                if name == "Traction":
-                    signs = [sign_of(word) for word in words[:2]]
-                    if not any(signs):
-                        continue
-                    towards = numpy.array(signs, float)
-                    towards /= numpy.linalg.norm(towards)
-                elif sign_of(words[0]) < 0:
-                    towards = out
+                towards = (numpy.array(load) if name == "Traction"
+                           else -load[0] * out)
+                towards = towards / numpy.linalg.norm(towards)
                 length = 0.09 * self.size
                 tail, head = ((place - length * towards, place)
                               if towards @ out < 0 else
@@ -402,37 +418,39 @@ class Sketch:
                     "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6})
                 any_drawn = True
         if any_drawn:
-            self.notes.append("arrows: pressure and traction, not to scale")
+            self.note("arrows: pressure and traction, not to scale")
+        if any_dots:
+            self.note("dots: pressure and traction by formulas")
 
     def draw_ids(self, axes):
         for surface in self.surfaces:
             place, normal = surface.samples(1)[0]
             out = self.outward(surface, place, normal)
-            axes.annotate(self.name(surface), place - 0.035 * self.size * out, ha="center",
-                          va="center", fontsize=7, color="#1b1f24", zorder=5)
+            axes.annotate(self.name(surface), place - 0.035 * self.size * out,
+                          ha="center", va="center", fontsize=7,
+                          color="#1b1f24", zorder=5)
         self.note_names()
 
     # In space.
 
     def draw_space(self, axes):
-        collection = __import__("mpl_toolkits.mplot3d.art3d", fromlist=["x"])
         colours, dashed = {}, set()
         for number, secondary, primary, obstacle in self.pairs():
             colour = PAIRS[(number - 1) % len(PAIRS)]
             colours.update({id(each): colour for each in secondary + primary})
             dashed |= {id(each) for each in primary}
-            self.notes.append(
-                f'<span style="color:{colour}">&#9632;</span> pair {number}: '
-                "secondary surface" + (
+            self.note(
+                f"pair {number}: secondary surface" + (
                     " and primary surface (paler)" if primary else
-                    f"; obstacle {obstacle}" if obstacle != "none" else ""))
+                    f"; obstacle {obstacle}" if obstacle != "none" else ""),
+                colour)
         fixed = {id(surface) for surface, words in self.supports()
                  if any(word != "free" for word in words)}
         loaded = {id(surface) for surface, _, _ in self.loads()}
         n_facets = sum(len(each.facets) for each in self.surfaces)
         for surface in self.surfaces:
             colour = colours.get(id(surface), "#c3cad2")
-            axes.add_collection3d(collection.Poly3DCollection(
+            axes.add_collection3d(Poly3DCollection(
                 surface.points[surface.facets], facecolors=colour,
                 edgecolors="#808890", rasterized=n_facets > 400,
                 linewidths=0.2 if n_facets < 3000 else 0,
@@ -443,53 +461,63 @@ class Sketch:
             # Surfaces that touch have their names apart.
             place = (0.85 * surface.points.mean(axis=0)
                      + 0.15 * self.middle(surface.body))
-            axes.text(*place, self.name(surface) + marks, fontsize=9, ha="center", zorder=10)
+            axes.text(*place, self.name(surface) + marks, fontsize=9,
+                      ha="center", zorder=10)
         low, high = self.box()
         for corners in self.obstacles.values():
-            axes.add_collection3d(collection.Poly3DCollection(
+            axes.add_collection3d(Poly3DCollection(
                 corners, facecolors="#303030", alpha=0.25, linewidths=0,
                 rasterized=True))
         if self.obstacles:
-            self.notes.append("grey: rigid obstacles at time 0")
+            self.note("grey: rigid obstacles at time 0")
         for name, a, b in zip("xyz", low, high):
             getattr(axes, f"set_{name}lim")(a, b)
         axes.set_box_aspect(high - low)
         axes.set_axis_off()
         self.note_names()
         if fixed:
-            self.notes.append("▲: displacement prescribed")
+            self.note("▲: displacement prescribed")
         if loaded:
-            self.notes.append("↓: pressure or traction")
+            self.note("↓: pressure or traction")
 
 
-def sign_of(word):
-    """Of a formula that is a number with factors after it."""
-    found = re.match(r"\s*(-?)\s*([0-9.]*(?:e[-+]?[0-9]+)?)", word)
+def value_of(word):
+    """Of a product of numbers and t, at t = 1; None of another formula, whose
+    sign is not known."""
+    result, divides = 1.0, False
+    for part in re.split(r"\s*([*/])\s*", word.strip()):
+        if part in ("*", "/"):
+            divides = part == "/"
+            continue
+        try:
+            value = {"t": 1.0, "pi": math.pi}.get(part) or float(part)
+            result = result / value if divides else result * value
+        except (ValueError, ZeroDivisionError):
+            return None
+    return result
+
+
+def main(words):
+    """The sketch of a folder as a picture of its own."""
+    parser = Words("check --draw")
+    parser.add_argument("folder")
+    parser.add_argument("file")
+    arguments = parser.parse_args(words)
+    sketch = Sketch(RunFolder(arguments.folder))
+    if not sketch:
+        raise InputError("--draw: there is nothing to draw. Sketches are of "
+                         "bodies and membranes with at most 20000 facets at "
+                         "their boundary.")
+    figure = sketch.draw()
+    handles = [lines.Line2D([], [], color=colour or "none", marker="s",
+                            linestyle="", markersize=5, label=text)
+               for text, colour in sketch.notes]
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + 4.2 * len(handles) * style.MM)
+    style.legend_above(figure, handles, 1)
     try:
-        if found and found.group(2) and float(found.group(2)) == 0 \
-                and found.end() == len(word.rstrip()):
-            return 0
-    except ValueError:
-        pass
-    return -1 if found and found.group(1) else 1
-
-
-def svg_of(figure, prefix):
-    """A figure as an <svg> element for a page."""
-    file = io.StringIO()
-    figure.savefig(file, format="svg",
-                   metadata={"Date": None, "Creator": None, "Format": None,
-                             "Type": None})
-    style.pyplot.close(figure)
-    return inline(file.getvalue(), prefix)
-
-
-def inline(svg, prefix):
-    """An SVG file as an element of a page, in which ids must be its own."""
-    svg = svg[svg.index("<svg"):].strip()
-    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
-    svg = re.sub(r' xmlns(:xlink)?="[^"]*"', "", svg).replace("xlink:href",
-                                                             "href")
-    for before in ('id="', 'href="#', "url(#"):
-        svg = svg.replace(before, before + prefix + "-")
-    return svg
+        figure.savefig(arguments.file, metadata={"Date": None}
+                       if arguments.file.endswith(".svg") else None)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--draw {arguments.file}: {error}.") from error
+    return 0
