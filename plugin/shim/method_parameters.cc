@@ -430,6 +430,26 @@ namespace abut
     return "";
   }
 
+  abut_discretisation
+  MethodParameters::discretisation_of(const bool has_obstacle,
+                                      const bool has_quadratic_triangles) const
+  {
+    const abut_law &law = *options.law;
+    if (discretisation)
+      return *discretisation;
+    if (abut_law_needs_stress(&law))
+      return ABUT_DISCRETISATION_QUADRATURE_POINT;
+    // The corners of quadratic triangles have no weight.
+    if (has_quadratic_triangles)
+      return has_obstacle && !kinematics_info(kinematics).weighted_obstacle
+                     && !abut_law_is_exact(&law)
+                     && !abut_law_is_primal_dual(&law)
+                 ? ABUT_DISCRETISATION_QUADRATURE_POINT
+                 : ABUT_DISCRETISATION_MORTAR;
+    return has_obstacle ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
+                        : ABUT_DISCRETISATION_DUAL_MORTAR;
+  }
+
   void MethodParameters::declare_parameters(ParameterHandler &prm)
   {
     const abut_strategy_options defaults = abut_strategy_defaults();

@@ -23,24 +23,6 @@ namespace abut::shim
 
   namespace
   {
-    /** Discretisation of a pair, if the parameters leave it open. */
-    abut_discretisation automatic_discretisation(
-        const abut_law &law, const abut_kinematics_info &kinematics,
-        const bool at_nodes, const bool has_quadratic_triangles)
-    {
-      if (abut_law_needs_stress(&law))
-        return ABUT_DISCRETISATION_QUADRATURE_POINT;
-      // The corners of quadratic triangles have no weight.
-      if (has_quadratic_triangles)
-        return at_nodes && !kinematics.weighted_obstacle
-                       && !abut_law_is_exact(&law)
-                       && !abut_law_is_primal_dual(&law)
-                   ? ABUT_DISCRETISATION_QUADRATURE_POINT
-                   : ABUT_DISCRETISATION_MORTAR;
-      return at_nodes ? ABUT_DISCRETISATION_NODE_TO_SEGMENT
-                      : ABUT_DISCRETISATION_DUAL_MORTAR;
-    }
-
     template <int dim>
     std::set<dealii::types::boundary_id>
     all_ids(const std::vector<ContactPair<dim>> &pairs)
@@ -179,10 +161,8 @@ namespace abut::shim
         host_.method.kinematics.value_or(ABUT_KINEMATICS_REFERENCE);
     if (!data.tied)
       pair.set_kinematics(kinematics);
-    pair.discretisation =
-        host_.method.discretisation.value_or(automatic_discretisation(
-            law, kinematics_info(kinematics), data.obstacle != nullptr,
-            pair.has_quadratic_triangles));
+    pair.discretisation = host_.method.discretisation_of(
+        data.obstacle != nullptr, pair.has_quadratic_triangles);
     const Message reason =
         refusal(law, pair.discretisation, host_.method.system, data.tied);
     if (!reason.empty())

@@ -109,6 +109,12 @@ namespace abut
      * where a law with a penalty follows an obstacle. */
     std::optional<abut_discretisation> discretisation;
 
+    /** The discretisation of a pair: @ref discretisation, or the automatic one
+     * for its law, kinematics, and shape.
+     * @param has_quadratic_triangles of the secondary surface */
+    abut_discretisation discretisation_of(bool has_obstacle,
+                                          bool has_quadratic_triangles) const;
+
     /** Variant of `nitsche`: 1 (symmetric), 0 or -1. */
     double nitsche_theta = 0.;
 

@@ -15,8 +15,7 @@
 
 namespace abut
 {
-  /** Text of a type. All text matches: who reads it knows better what is wrong
-   * with it. */
+  /** Text of a type. All text matches: its reader reports errors better. */
   class TextPattern : public dealii::Patterns::PatternBase
   {
   public:
@@ -101,14 +100,18 @@ namespace abut
     {
     }
 
+    /** Whether @p text is the number 0. */
+    static bool is_zero(const std::string &text)
+    {
+      char *end = nullptr;
+      return !text.empty() && std::strtod(text.c_str(), &end) == 0.
+             && *end == '\0';
+    }
+
     /** Whether @p text is the word, 0, or matches the pattern. */
     bool match(const std::string &text) const override
     {
-      char *end = nullptr;
-      const double number = std::strtod(text.c_str(), &end);
-      const bool is_zero =
-          !text.empty() && end != nullptr && *end == '\0' && number == 0.;
-      return text == word || is_zero || pattern->match(text);
+      return text == word || is_zero(text) || pattern->match(text);
     }
 
     /** As "[Or auto [Number above 0]]". */

@@ -128,8 +128,9 @@ namespace abut::app
     prm.leave_subsection();
     coarsest_level = std::min(coarsest_level, level);
     if (target_error > 0. && target_error < least_target)
-      throw InputError("Refinement/Target error",
-                       "is below 1e-10, smaller than round-off.");
+      throw InputError(
+          "Refinement/Target error",
+          "is below 1e-10, where round-off is larger than the error.");
     if (has_target())
     {
       level = coarsest_level;

@@ -153,7 +153,7 @@ namespace abut::app
       }
     }
 
-    /** What a run leaves in @p status when it ends by an error. */
+    /** Record in @p status that the run ended by an error. */
     void record_error(StatusFile &status, const std::exception &error,
                       const bool has_results)
     {
@@ -250,18 +250,16 @@ namespace abut::app
       options.restart = restart.get();
       StatusFile status(communicator, options.output_folder, line.words,
                         line.file);
-      collective(communicator,
-                 [&]
-                 {
-                   status.begin();
-                   if (!is_root(communicator))
-                     return;
-                   remove_files(options.output_folder, of_problem);
-                   if (!line.resume)
-                     remove_files(options.output_folder, of_results);
-                   write_file(options.output_folder / "parameters.json",
-                              loaded.parameters_json());
-                 });
+      on_root(communicator,
+              [&]
+              {
+                status.begin();
+                remove_files(options.output_folder, of_problem);
+                if (!line.resume)
+                  remove_files(options.output_folder, of_results);
+                write_file(options.output_folder / "parameters.json",
+                           loaded.parameters_json());
+              });
       Report report(communicator, verbosity(line));
       loaded.describe(report);
       const std::string page = loaded.get("Output", "Report");
@@ -436,16 +434,14 @@ namespace abut::app
 
     ExitCode new_command(MPI_Comm communicator, const CommandLine &line)
     {
-      collective(communicator,
-                 [&]
-                 {
-                   if (!is_root(communicator))
-                     return;
-                   const std::string file =
-                       write_new_scene(line.topic, line.file).string();
-                   std::cout << file << " written; solve it: abut run " << file
-                             << std::endl;
-                 });
+      on_root(communicator,
+              [&]
+              {
+                const std::string file =
+                    write_new_scene(line.topic, line.file).string();
+                std::cout << file << " written; solve it: abut run " << file
+                          << std::endl;
+              });
       return ExitCode::success;
     }
 

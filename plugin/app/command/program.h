@@ -11,7 +11,7 @@
 
 namespace abut::app
 {
-  /** What the program says where a mesh does not fit into memory. */
+  /** Message: a mesh does not fit into memory. */
   inline constexpr char no_memory[] =
       "there is not enough memory for this mesh. Take a coarser one, or more "
       "ranks on more machines.";

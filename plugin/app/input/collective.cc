@@ -84,4 +84,12 @@ namespace abut::app
     }
     throw_agreed(communicator, mine);
   }
+
+  void on_root(MPI_Comm communicator, const std::function<void()> &action)
+  {
+    int rank;
+    MPI_Comm_rank(communicator, &rank);
+    collective(
+        communicator, rank == 0 ? action : [] {});
+  }
 } // namespace abut::app

@@ -22,6 +22,9 @@ namespace abut::app
    * only some ranks may throw. */
   void collective(MPI_Comm communicator, const std::function<void()> &action);
 
+  /** collective() of an action of rank 0 alone. */
+  void on_root(MPI_Comm communicator, const std::function<void()> &action);
+
   /** Second half of collective(): agree on @p mine, the exception of this rank
    * or nullptr. Collective. */
   void throw_agreed(MPI_Comm communicator, std::exception_ptr mine);

@@ -5,6 +5,7 @@
 #include "number_text.h"
 
 #include <abut/dealii/parameter_entry.h>
+#include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -51,14 +52,6 @@ namespace abut::app
     std::string text_of(const ParameterFile::Place &place)
     {
       return place.file + ":" + std::to_string(place.line);
-    }
-
-    /** Whether @p value is the number 0. */
-    bool is_zero(const std::string &value)
-    {
-      char *end = nullptr;
-      return !value.empty() && std::strtod(value.c_str(), &end) == 0.
-             && *end == '\0';
     }
 
     /** How @p assignment was given: all with the same word count together. */
@@ -211,7 +204,7 @@ namespace abut::app
             assignment.value);
       for (const DeclaredParameter &parameter : declared)
         if (parameter.path == assignment.path && !parameter.zero_word.empty()
-            && is_zero(assignment.value))
+            && OrWord::is_zero(assignment.value))
           add(assignment.path + " = " + assignment.value, parameter.zero_word);
     }
     return lines;
@@ -359,7 +352,7 @@ namespace abut::app
         throw_undeclared(assignment.path, declared);
       // The last assignment counts; the others are not looked at.
       found->value = get(assignment.path, "");
-      if (!found->zero_word.empty() && is_zero(found->value))
+      if (!found->zero_word.empty() && OrWord::is_zero(found->value))
         found->value = found->zero_word;
       set_value(prm, *found);
     }

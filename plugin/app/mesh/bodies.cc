@@ -247,6 +247,8 @@ namespace abut::app
           body_names.emplace_back(name, body);
       if (!extras.middles.empty())
         curved.insert(body);
+      if (coarse.are_simplices(body))
+        of_simplices.insert(body);
       for (const std::string &warning : extras.warnings)
         of_files.push_back(parameters[body].mesh.section + "/File: " + warning);
       if constexpr (dim == 2)

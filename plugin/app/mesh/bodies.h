@@ -146,6 +146,12 @@ namespace abut::app
       return curved.count(body) > 0;
     }
 
+    /** Whether the cells of a body are triangles or tetrahedra. */
+    bool are_simplices(const unsigned int body) const
+    {
+      return of_simplices.count(body) > 0;
+    }
+
     /** Number in the triangulation of a body's boundary id. */
     BoundaryId number(unsigned int body, BoundaryId id) const;
 
@@ -196,7 +202,7 @@ namespace abut::app
     std::vector<BoundaryNames> all_names; ///< by body
     std::vector<std::pair<std::string, unsigned int>> body_names;
     std::vector<std::string> of_files;
-    std::set<unsigned int> curved;                           ///< bodies
+    std::set<unsigned int> curved, of_simplices;             ///< bodies
     std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
     std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;
   };

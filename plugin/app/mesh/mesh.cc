@@ -197,7 +197,7 @@ namespace abut::app
         "x, then y, then z. Applied after `Scale`.");
     parameter::declare(prm, "Move", "", TextPattern::number_vector(),
                        parameter::basic("length", "0, 1.5"),
-                       "Translation, applied last.");
+                       "Translation at time 0, applied after `Rotate`.");
     parameter::declare(prm, "Boundary ids", "", TextPattern::formula_by_id(),
                        parameter::advanced("", "1: y > 0.99; 2: abs(x) < 1e-6"),
                        "Boundary ids set by conditions on the centre of a face "

@@ -284,15 +284,6 @@ namespace abut::app
                        "Kind surface: whether the surface may have borders, "
                        "like a sheet with the material behind it.");
     SurfaceParameters::declare(prm);
-    parameter::declare(
-        prm, "Rotate", "", TextPattern::numbers(),
-        parameter::advanced("degrees", "90"),
-        "Rotation about the origin: one angle in 2D, in 3D three angles about "
-        "x, then y, then z. Applied after `Scale`, before any motion.");
-    parameter::declare(
-        prm, "Move", "", TextPattern::number_vector(),
-        parameter::advanced("length", "0, 1.5"),
-        "Translation, applied after `Rotate`, before any motion.");
   }
 
   void RigidObstacleParameters::parse(ParameterHandler &prm,

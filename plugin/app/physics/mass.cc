@@ -96,10 +96,11 @@ namespace abut::app
           == ABUT_SUCCESS)
         return;
       std::ostringstream message;
-      message << "all nodes of the cell at (" << cell->center()
-              << ") are on the secondary surface of a pair: the body is one "
-                 "element thick, and no neighbour can receive their mass. "
-                 "Refine it, or set Time stepping/Mass matrix = consistent.";
+      message
+          << "all nodes of the cell at (" << cell->center()
+          << ") are on the secondary surface of a pair: the body is one "
+             "element thick there, and no neighbour can receive their mass. "
+             "Refine it, or set Time stepping/Mass matrix = consistent.";
       throw InputError("Time stepping/Mass matrix", message.str());
     }
   } // namespace

@@ -36,7 +36,7 @@ namespace abut::app
                                    {"slip", "slip"},
                                    {"impulse", "impulse"}};
 
-    /** What pairs have of their own. */
+    /** Contact of scenes without pairs. */
     constexpr Word contact_words[] = {{"contact_force", "contact force"},
                                       {"max_penetration", "penetration"},
                                       {"active", "points in contact"}};
@@ -77,7 +77,7 @@ namespace abut::app
         {"ns_per_node", "search time per node [ns]"},
         {"bytes_per_facet", "memory per facet [byte]"}};
 
-    /** A number without the digits that only the computer sees. */
+    /** A number with few digits. */
     std::string in_short(const double value)
     {
       return short_number(value + 0., digits); // 0, not -0
@@ -111,11 +111,11 @@ namespace abut::app
     }
 
     template <std::size_t n>
-    const char *find_label(const Word (&list)[n], const std::string &key)
+    const Word *find(const Word (&list)[n], const std::string &key)
     {
       for (const Word &word : list)
         if (key == word.key)
-          return word.label;
+          return &word;
       return nullptr;
     }
 
@@ -165,7 +165,7 @@ namespace abut::app
         return is_width ? "contact width" : word.label;
       }
 
-      /** What a key of the summary is in the words of the field. */
+      /** A key of the summary in the words of the field. */
       std::string label_of(std::string key) const;
 
       unsigned int room() const
@@ -207,17 +207,14 @@ namespace abut::app
       if (owner.rfind("point ", 0) == 0 && key.empty())
         owner += ": displacement";
       std::string text;
-      if (owner.rfind("pair ", 0) == 0)
-        for (const Word &word : pair_words)
-          if (key == word.key)
-            text = label_of_pair(word);
-      if (const char *label = find_label(contact_words, key);
-          text.empty() && label != nullptr)
-        text = label;
-      if (const char *label = find_label(words, key);
-          text.empty() && label != nullptr)
-        text = label;
-      if (text.empty())
+      if (const Word *word = find(pair_words, key);
+          word != nullptr && owner.rfind("pair ", 0) == 0)
+        text = label_of_pair(*word);
+      else if (const Word *of_contact = find(contact_words, key))
+        text = of_contact->label;
+      else if (const Word *other = find(words, key))
+        text = other->label;
+      else
       {
         std::replace(key.begin(), key.end(), '_', ' ');
         text = key;
@@ -293,7 +290,7 @@ namespace abut::app
       const double off = *value - figure.value;
       figures.add(
           {label_of(figure.key), in_short(*value), in_short(figure.value),
-           figure.value == 0. ? "off by " + short_number(off, 2)
+           figure.value == 0. ? "difference " + short_number(off, 2)
                               : short_number(std::abs(off / figure.value), 2)});
       added.push_back(figure.key.substr(0, figure.key.find('[')));
     }

@@ -71,15 +71,12 @@ namespace abut::app
   void StepTable::write(const MPI_Comm communicator,
                         const std::filesystem::path &folder) const
   {
-    collective(communicator,
-               [&]
-               {
-                 if (dealii::Utilities::MPI::this_mpi_process(communicator)
-                     != 0)
-                   return;
-                 write(folder / "steps.csv", columns, rows);
-                 if (!newton.empty())
-                   write(folder / "newton.csv", newton_columns, newton);
-               });
+    on_root(communicator,
+            [&]
+            {
+              write(folder / "steps.csv", columns, rows);
+              if (!newton.empty())
+                write(folder / "newton.csv", newton_columns, newton);
+            });
   }
 } // namespace abut::app

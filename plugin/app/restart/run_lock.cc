@@ -93,13 +93,7 @@ namespace abut::app
   RunLock::RunLock(const fs::path &folder, const MPI_Comm communicator)
       : file(folder / ".abut-lock")
   {
-    collective(communicator,
-               [&]
-               {
-                 if (dealii::Utilities::MPI::this_mpi_process(communicator)
-                     == 0)
-                   descriptor = lock(file);
-               });
+    on_root(communicator, [&] { descriptor = lock(file); });
   }
 
   RunLock::~RunLock()

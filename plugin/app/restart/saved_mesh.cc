@@ -68,13 +68,7 @@ namespace abut::app
       for (const la::Vector &field : fields)
         values.push_back(values_along_mesh(dof_handler, field));
       const MPI_Comm communicator = versions::communicator(dof_handler);
-      collective(communicator,
-                 [&]
-                 {
-                   if (dealii::Utilities::MPI::this_mpi_process(communicator)
-                       == 0)
-                     write_file(file, to_bytes(values));
-                 });
+      on_root(communicator, [&] { write_file(file, to_bytes(values)); });
     }
 
     template <int dim>
@@ -104,14 +98,11 @@ namespace abut::app
       const std::size_t per_cell =
           128
           + n_fields * 8 * dof_handler.get_fe_collection().max_dofs_per_cell();
-      collective(
-          communicator,
-          [&]
-          {
-            if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-              require_room(folder,
-                           65536 + per_cell * mesh.n_global_active_cells());
-          });
+      on_root(communicator,
+              [&] {
+                require_room(folder,
+                             65536 + per_cell * mesh.n_global_active_cells());
+              });
     }
   } // namespace
 

@@ -30,15 +30,6 @@ namespace abut::app
       return names;
     }
 
-    std::string joined(const std::vector<std::string> &words,
-                       const std::string &separator)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : separator) + word;
-      return text;
-    }
-
     /** Words of SceneKind::dimensions; a scene without has {0}. */
     std::vector<std::string> dimension_words(const SceneKind &kind)
     {
@@ -48,8 +39,38 @@ namespace abut::app
           words.push_back(std::to_string(dimension));
       return words;
     }
-
   } // namespace
+
+  std::string joined(const std::vector<std::string> &words,
+                     const std::string &separator)
+  {
+    std::string text;
+    for (const std::string &word : words)
+      text += (text.empty() ? "" : separator) + word;
+    return text;
+  }
+
+  void declare_mesh_results(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Exact solution");
+    parameter::declare(prm, "Energy", "nan", TextPattern("a number, or nan"),
+                       parameter::expert("force*length", "0.25"),
+                       "Energy of the exact solution; nan: unknown.");
+    prm.leave_subsection();
+    prm.enter_subsection("Output");
+    parameter::declare(prm, "Every", "1", Patterns::Integer(1),
+                       parameter::advanced("time steps", "10"),
+                       "Time steps between two sets of fields of a motion. "
+                       "The last step is always written.");
+    parameter::declare(
+        prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
+        "Whether fields are written on every mesh, not only on the last.");
+    parameter::declare(
+        prm, "Nodal values", "false", Patterns::Bool(), parameter::advanced(),
+        "Whether displacement and forces at all nodes of the last mesh are "
+        "written to nodal.csv, in full precision.");
+    prm.leave_subsection();
+  }
 
   std::vector<ExpectedFigure> parse_expected(const std::string &text)
   {

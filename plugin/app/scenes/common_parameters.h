@@ -21,6 +21,14 @@ namespace abut::app
   void declare_all(dealii::ParameterHandler &prm, const SceneKind &kind,
                    const Scene &scene);
 
+  /** Declare the parameters of sections `Exact solution` and `Output` that all
+   * scenes with meshes have. */
+  void declare_mesh_results(dealii::ParameterHandler &prm);
+
+  /** The words with @p separator between them. */
+  std::string joined(const std::vector<std::string> &words,
+                     const std::string &separator);
+
   /** Read `Output/Expected`: figures and formulas, "energy: 2*pi; active: 3".
    */
   std::vector<ExpectedFigure> parse_expected(const std::string &text);

@@ -339,7 +339,7 @@ namespace abut::app
     {
     }
 
-    /** What is solved, and how: bodies, contact, method. */
+    /** The problem and its solution in words: bodies, contact, method. */
     virtual std::string description() const = 0;
 
     /** A line of progress about a result. */

@@ -12,6 +12,7 @@
 #include "app/mesh/memory_check.h"
 #include "app/restart/restart.h"
 #include "diagnosis.h"
+#include "method_words.h"
 #include "name_parameter.h"
 #include "shim/solver_space.h"
 
@@ -383,10 +384,11 @@ namespace abut::app
     switch (result.reason)
     {
     case NewtonReason::contact:
-      return coded(contact.failure,
-                   "The contact iteration ended without a solution after "
-                       + std::to_string(state.present.steps)
-                       + " steps: " + contact.explanation);
+      return coded(
+          contact.failure,
+          "The contact iteration ended without a solution after "
+              + counted(state.present.steps, "linear system", "linear systems")
+              + ": " + contact.explanation + ".");
     case NewtonReason::linear_solve:
       return diagnose_solver_failure(model.with_names(result.explanation),
                                      contact.progress.penalty);
@@ -773,12 +775,13 @@ namespace abut::app
       model.look_at_rows(true);
       const bool is_of_matrix = code == ABUT_FAILURE_FLOATING_BODY
                                 || code == ABUT_FAILURE_LINEAR_SOLVER;
-      report.warn(failure + where + instability(code)
-                  + (is_same && !model.has_inertia() && !is_of_matrix
-                         ? " Smaller load steps failed as well: loads and "
-                           "motions without t are applied at once. Multiply "
-                           "their formulas by t."
-                         : ""));
+      report.warn(
+          failure + where + instability(code)
+          + (is_same && !model.has_inertia() && !is_of_matrix
+                 ? " Smaller load steps failed as well; they do not reduce "
+                   "loads and motions without t. Multiply such "
+                   "formulas by t."
+                 : ""));
     }
     told = failure.text;
     if (!goes_on && model.reports_failures())

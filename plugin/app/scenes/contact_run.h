@@ -40,8 +40,10 @@ namespace abut::app
     /** What has mass floats in a step only if its inertia is lost in round-off.
      */
     static constexpr const char *inertia_vanishes =
-        "Inertia is below round-off of the stiffness, so rigid body modes are "
-        "free. Check the units of Density; use a larger density, a smaller "
+        "Inertia (mass divided by the square of the time step) is below "
+        "round-off "
+        "of the stiffness, so rigid body modes are free. Check the units of "
+        "Density; use a larger density, a smaller "
         "Time stepping/Step size, or supports.";
 
     void prepare();

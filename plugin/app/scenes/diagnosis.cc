@@ -90,12 +90,13 @@ namespace abut::app
                       "is correct; Method/Enforcement = interior point has no "
                       "active set."));
     if (is_cold && n_layers > many_steps)
-      report.warn(
-          coded(ABUT_FAILURE_COLD_START,
-                std::to_string(progress.step)
-                    + " active set iterations from displacement 0; twice as "
-                      "fine a mesh needs twice as many. Set Refinement/Nested "
-                      "iteration = true, which starts from coarser meshes."));
+      report.warn(coded(
+          ABUT_FAILURE_COLD_START,
+          std::to_string(progress.step)
+              + " active set iterations from displacement 0: each changes "
+                "the set by one layer of nodes, and twice as fine a mesh "
+                "needs twice as many. Set Refinement/Nested "
+                "iteration = true, which starts from coarser meshes."));
   }
 
   bool diagnose_balance(Report &report, const double imbalance,
@@ -111,9 +112,11 @@ namespace abut::app
                     cause);
     if (imbalance <= (is_exact ? useless_imbalance : visible_imbalance))
       return true;
-    const std::string seen = "Forces are out of balance by "
-                             + short_number(imbalance, 2)
-                             + " of the contact forces: ";
+    const std::string seen = std::isfinite(imbalance)
+                                 ? "Forces are out of balance by "
+                                       + short_number(imbalance, 2)
+                                       + " of the contact forces: "
+                                 : "Forces are not finite: ";
     const std::string digits = "a smaller Method/Final linear tolerance";
     std::string why;
     if (penalty > 0.)
@@ -169,7 +172,9 @@ namespace abut::app
     const Message text = coded(
         cause,
         "Twice the energy, " + short_number(works.stored, 4)
-            + ", differs from the work of loads, supports and contact by "
+            + ", differs from the work of loads, supports and contact (on "
+              "initial "
+              "gaps) by "
             + short_number(100. * part, 2) + " %. "
             + (!is_law
                    ? "Forces are not in balance: use a smaller Method/Final "
@@ -204,17 +209,18 @@ namespace abut::app
     const std::string seen =
         order > least_order
             ? "The energy converges with order " + short_number(order, 2)
-                  + " in the cell size (smooth data: 2); the error of the last "
+                  + " in the cell size (smooth data: 2); its error on the last "
                     "mesh is about "
-                  + short_number(100. * missing, 2) + " % of it."
+                  + short_number(100. * missing, 2) + " %."
             : "The energy does not converge: the last mesh changed it by "
                   + short_number(100. * std::abs(last / energies[n - 1]), 2)
-                  + " %, as much as the mesh before.";
+                  + " %, at least as much as the mesh before.";
     report.warn(
         coded(ABUT_FAILURE_SINGULAR,
               seen
                   + " Reasons are corners of bodies and punches, ends of "
-                    "supports and loads, and data that jump within a cell. "
+                    "supports and loads, and data that jump or change within a "
+                    "cell. "
                     "Refinement/Adaptive cycles refines there only."));
   }
 

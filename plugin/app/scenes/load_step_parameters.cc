@@ -13,6 +13,14 @@ namespace abut::app
     constexpr int most_load_steps = 1000000;
   } // namespace
 
+  void declare_end_time(dealii::ParameterHandler &prm)
+  {
+    parameter::declare(prm, "End time", "1", NumberPattern::positive(),
+                       parameter::basic("time", "2"),
+                       "Time t at the end of the last step. Loads, prescribed "
+                       "displacements and motions are formulas in t.");
+  }
+
   void LoadStepParameters::declare(dealii::ParameterHandler &prm)
   {
     namespace Patterns = dealii::Patterns;
@@ -22,10 +30,7 @@ namespace abut::app
         parameter::basic("1", "10"),
         "Number of equal load steps from t = 0 to `End time`, for `Scheme = "
         "quasi-static`. With 1 step all loads are applied at once.");
-    parameter::declare(prm, "End time", "1", NumberPattern::positive(),
-                       parameter::basic("time", "2"),
-                       "Time t at the end of the last step. Loads, prescribed "
-                       "displacements and motions are formulas in t.");
+    declare_end_time(prm);
     parameter::declare(prm, "Cut back", "true", Patterns::Bool(),
                        parameter::advanced(),
                        "Whether a step without a solution is halved and "

@@ -8,6 +8,9 @@
 
 namespace abut::app
 {
+  /** Declare `End time` in the open section. */
+  void declare_end_time(dealii::ParameterHandler &prm);
+
   /** Section `Time stepping`: the way from time 0 to the end. */
   struct LoadStepParameters : LoadStepOptions
   {

@@ -129,7 +129,7 @@ namespace abut::app
     for (const std::string &line : old_words)
       old += (old.empty() ? "old names: " : "; ") + line;
     if (!old.empty())
-      report.progress(old + ".");
+      report.print("  " + old + ".");
   }
 
   std::string LoadedScene::parameters_json() const
@@ -164,8 +164,7 @@ namespace abut::app
     RunIdentity result = program_identity();
     for (const DeclaredParameter &parameter : declared)
     {
-      // How often checkpoints are written, and what results are compared with,
-      // changes none.
+      // Checkpoints and expected figures change no result.
       if (parameter.path.rfind("Checkpoint/", 0) == 0
           || parameter.path == "Output/Expected")
         continue;

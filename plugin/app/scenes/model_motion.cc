@@ -454,13 +454,10 @@ namespace abut::app
       }
       out << '\n';
     }
-    collective(
-        run.communicator,
-        [&]
-        {
-          if (dealii::Utilities::MPI::this_mpi_process(run.communicator) == 0)
-            write_file(run.options.output_folder / "motion.csv", out.str());
-        });
+    on_root(run.communicator,
+            [&] {
+              write_file(run.options.output_folder / "motion.csv", out.str());
+            });
   }
 
   template class ModelMotion<2>;

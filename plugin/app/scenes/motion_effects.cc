@@ -3,36 +3,42 @@
 
 namespace abut::app
 {
-  namespace
-  {
-    /** A number of a time scheme. */
-    EffectRule of_scheme(const std::string &name, const std::string &scheme)
-    {
-      return effective_if(
-          "Time stepping/" + name, Weight::data,
-          [scheme](const SceneValues &values)
-          { return values("Time stepping/Scheme") == scheme; },
-          "it belongs to Time stepping/Scheme = " + scheme + ".");
-    }
-  } // namespace
-
   bool has_motion(const SceneValues &values)
   {
     return values("Time stepping/Scheme") != "quasi-static";
   }
 
+  std::string is_at_rest(const std::string &first)
+  {
+    return "it belongs to dynamics, and Time stepping/Scheme is quasi-static. "
+           + first + " is a good first choice.";
+  }
+
+  EffectRules scheme_effects(const Weight weight)
+  {
+    const std::pair<std::string, std::string> all[] = {
+        {"HHT alpha", "hht"},
+        {"Generalised alpha spectral radius", "generalised alpha"},
+        {"Newmark beta", "newmark"},
+        {"Newmark gamma", "newmark"},
+        {"Restitution", "velocity level"}};
+    EffectRules rules;
+    for (const auto &[name, scheme] : all)
+      rules.push_back(effective_if(
+          "Time stepping/" + name, weight,
+          [scheme = scheme](const SceneValues &values)
+          { return values("Time stepping/Scheme") == scheme; },
+          "it belongs to Time stepping/Scheme = " + scheme + "."));
+    return rules;
+  }
+
   EffectRules motion_effects(const std::vector<std::string> &data_of_motion,
                              const std::string &first)
   {
-    const std::string at_rest =
-        "it belongs to dynamics, and Time stepping/Scheme is quasi-static. "
-        + first + " is a good first choice.";
-    EffectRules rules = {
-        of_scheme("HHT alpha", "hht"),
-        of_scheme("Generalised alpha spectral radius", "generalised alpha"),
-        of_scheme("Newmark beta", "newmark"),
-        of_scheme("Newmark gamma", "newmark"),
-        effective_if("Output/Every", Weight::setting, has_motion, at_rest)};
+    const std::string at_rest = is_at_rest(first);
+    EffectRules rules = scheme_effects(Weight::data);
+    rules.push_back(
+        effective_if("Output/Every", Weight::setting, has_motion, at_rest));
     std::vector<std::string> names = {
         "Time stepping/Step size", "Time stepping/Mass *",
         "Time stepping/Mass matrix", "Time stepping/Stiffness damping"};

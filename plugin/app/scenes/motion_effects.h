@@ -6,8 +6,15 @@
 
 namespace abut::app
 {
-  /** Whether Time stepping/Scheme has what has mass move. */
+  /** Whether Time stepping/Scheme has inertia. */
   bool has_motion(const SceneValues &values);
+
+  /** The reason why data of dynamics have no effect; @p first is the scheme to
+   * begin with. */
+  std::string is_at_rest(const std::string &first);
+
+  /** Parameters of time schemes. */
+  EffectRules scheme_effects(Weight weight);
 
   /** Section `Time stepping` of scenes with meshes, and what a motion changes
    * in others.

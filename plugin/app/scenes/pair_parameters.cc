@@ -40,18 +40,20 @@ namespace abut::app
         prm, "Initial gap", "0", TextPattern::formula(),
         parameter::basic("length", "-0.01*t"),
         "Length that is added to the gap of the meshes, a formula in t. "
-        "Positive: clearance; negative: interference. Must be smaller than "
-        "half of the obstacle's thickness and than the thickness of the "
-        "bodies. Obstacles of kind height: along `Gap along`.");
+        "Positive: clearance; negative: interference. A clearance must be "
+        "smaller than half of the thickness of a bounded obstacle, and than "
+        "the thickness of the bodies. Obstacles of kind height: along `Gap "
+        "along`.");
     parameter::declare(
         prm, "Use mesh gap", "true", Patterns::Bool(), parameter::advanced(),
         "Whether the gap between the meshes counts. false: the gap is `Initial "
         "gap` alone, for curved surfaces that fit in the reference "
         "configuration although their facets do not. Needs `Method/Contact "
         "geometry = reference`.");
-    parameter::declare(prm, "Tied", "false", Patterns::Bool(),
-                       parameter::basic(),
-                       "Whether the surfaces are glued together.");
+    parameter::declare(
+        prm, "Tied", "false", Patterns::Bool(), parameter::basic(),
+        "Whether the surfaces are glued together where they are opposite "
+        "to each other.");
     parameter::declare(
         prm, "Friction", "0", TextPattern::formula(),
         parameter::basic("1", "0.3"),

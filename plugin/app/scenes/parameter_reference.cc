@@ -25,14 +25,6 @@ namespace abut::app
         names.push_back(name);
     }
 
-    std::string joined(const Names &words, const std::string &separator)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : separator) + word;
-      return text;
-    }
-
     /** Where a kind of scenes has a parameter. */
     struct Place
     {
@@ -431,29 +423,5 @@ namespace abut::app
     }
     write_old_words(out);
     write_pair_measures(out);
-  }
-
-  void write_parameters(std::ostream &out, const dealii::ParameterHandler &prm,
-                        const std::string &what)
-  {
-    std::string section;
-    std::vector<DeclaredParameter> all = declared_parameters(prm);
-    // Those outside of sections come first.
-    std::stable_partition(all.begin(), all.end(),
-                          [](const DeclaredParameter &parameter)
-                          { return section_of(parameter.path).empty(); });
-    for (const DeclaredParameter &parameter : all)
-    {
-      const std::string where = section_of(parameter.path);
-      if (where != section)
-        out << "\n### " << where << " (" << what << ")\n\n";
-      section = where;
-      out << "- **" << last_name(parameter.path) << "** = "
-          << (parameter.default_value.empty()
-                  ? "(empty)"
-                  : "`" + parameter.default_value + "`")
-          << " (" << parameter.pattern << "). " << parameter.documentation
-          << "\n";
-    }
   }
 } // namespace abut::app

@@ -9,14 +9,12 @@
 
 #include <abut/dealii/parameter_entry.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <iosfwd>
 #include <string>
 
 namespace abut::app
 {
-  /** What to print. */
+  /** Parameters to print. */
   struct ReferenceOptions
   {
     std::string kind; /**< one kind of scenes; empty: all */
@@ -35,10 +33,6 @@ namespace abut::app
 
   /** The parameters of scenes. */
   void write_reference(std::ostream &out, const ReferenceOptions &options);
-
-  /** The parameters declared in @p prm, with headings for its sections. */
-  void write_parameters(std::ostream &out, const dealii::ParameterHandler &prm,
-                        const std::string &what);
 } // namespace abut::app
 
 #endif

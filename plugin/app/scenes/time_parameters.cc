@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "time_parameters.h"
 
+#include "load_step_parameters.h"
+
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 
@@ -111,10 +113,7 @@ namespace abut::app
                        "Length of a time step, required in dynamics. Slightly "
                        "less where `End time` is not a multiple of it. "
                            + about_steps);
-    parameter::declare(prm, "End time", "1", NumberPattern::positive(),
-                       parameter::basic("time", "2"),
-                       "Time t at the end of the last step. Loads, prescribed "
-                       "displacements and motions are formulas in t.");
+    declare_end_time(prm);
     parameter::declare(prm, "HHT alpha", "-0.1",
                        NumberPattern::between(-1. / 3., 0.),
                        parameter::advanced("1", "-0.05"),

@@ -3,6 +3,7 @@
 
 #include "app/input/input_error.h"
 #include "app/input/parameters.h"
+#include "app/scenes/common_parameters.h"
 
 #include <abut/dealii/parameter_entry.h>
 #include <abut/dealii/text_pattern.h>
@@ -84,9 +85,6 @@ namespace abut::app
           prm, "Gradient", "", TextPattern::vector(),
           parameter::expert("1", "1 - 2*x; 0"),
           "Its gradient `du/dx; du/dy`. Empty: by finite differences.");
-      parameter::declare(prm, "Energy", "nan", TextPattern("a number, or nan"),
-                         parameter::expert("force*length", "0.25"),
-                         "Energy of the exact solution; nan: unknown.");
       parameter::declare(prm, "Contact force", "nan",
                          TextPattern("a number, or nan"),
                          parameter::expert("force", "2"),
@@ -98,17 +96,6 @@ namespace abut::app
                          parameter::basic(),
                          "Whether displacement, pressure, gap and status are "
                          "written as VTU and PVD files for ParaView.");
-      parameter::declare(prm, "Every", "1", Patterns::Integer(1),
-                         parameter::advanced("time steps", "10"),
-                         "Time steps between two sets of fields of a motion. "
-                         "The last step is always written.");
-      parameter::declare(
-          prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
-          "Whether fields are written on every mesh, not only on the last.");
-      parameter::declare(
-          prm, "Nodal values", "false", Patterns::Bool(), parameter::advanced(),
-          "Whether displacement and forces at all nodes of the last mesh are "
-          "written to nodal.csv, in full precision.");
       parameter::declare(
           prm, "Linear solves for comparison", "0", Patterns::Integer(0),
           parameter::expert("1", "3"),
@@ -134,6 +121,7 @@ namespace abut::app
         "A step that fails is halved, down to a thousandth.");
     RefinementParameters::declare(prm, "5", "3");
     declare_results(prm);
+    declare_mesh_results(prm);
   }
 
   void ObstacleParameters::begin_motion()

@@ -11,6 +11,7 @@
 #include "app/scenes/method_effects.h"
 #include "app/scenes/method_words.h"
 #include "chain_model.h"
+#include "mass_row.h"
 #include "point_mass.h"
 #include "row_formulas.h"
 
@@ -88,22 +89,11 @@ namespace abut::app
           parameter::basic("1", "10"),
           "Number of masses in a row along x above a rigid plane. A mass moves "
           "along the plane (x; in 3D x and y) and in height.");
-      parameter::declare(prm, "Spacing", "1", NumberPattern::positive(),
-                         parameter::basic("length", "0.5"),
-                         "Distance between neighbours. Formulas see mass i, "
-                         "counted from 0, at x = i times this distance.");
-      parameter::declare(prm, "Spring", "1", NumberPattern::from(0),
-                         parameter::basic("force/length", "100"),
-                         "Stiffness of the springs between neighbours, the "
-                         "same along x and y; linear.");
+      declare_row(prm, "1");
       parameter::declare(prm, "End spring", "0", NumberPattern::from(0),
                          parameter::basic("force/length", "10"),
                          "Stiffness of the spring between the first mass and "
                          "`Load/Driven end`. 0: no spring.");
-      parameter::declare(prm, "Wall spring", "0", NumberPattern::from(0),
-                         parameter::advanced("force/length", "10"),
-                         "Stiffness of the spring between the last mass and a "
-                         "wall. 0: no spring.");
       parameter::declare(
           prm, "Normal spring", "1", NumberPattern::positive(),
           parameter::advanced("force/length", "1"),

@@ -3,6 +3,9 @@
 
 #include "shim/handles.h"
 
+#include <abut/dealii/number_pattern.h>
+#include <abut/dealii/parameter_entry.h>
+
 namespace abut::app
 {
   namespace
@@ -35,6 +38,22 @@ namespace abut::app
       return row.is_bar ? (left + right) * row.mass : row.mass;
     }
   } // namespace
+
+  void declare_row(dealii::ParameterHandler &prm, const std::string &spring)
+  {
+    parameter::declare(prm, "Spacing", "1", NumberPattern::positive(),
+                       parameter::basic("length", "0.5"),
+                       "Distance between neighbours. Formulas see mass i, "
+                       "counted from 0, at x = i times this distance.");
+    parameter::declare(prm, "Spring", spring, NumberPattern::from(0),
+                       parameter::basic("force/length", "100"),
+                       "Stiffness of the springs between neighbours along the "
+                       "row, in 3D the same along x and y; linear.");
+    parameter::declare(prm, "Wall spring", "0", NumberPattern::from(0),
+                       parameter::advanced("force/length", "10"),
+                       "Stiffness of the spring between the last mass and a "
+                       "wall, along the row. 0: no spring.");
+  }
 
   MassSystem::MassSystem(const MassRow &row)
       : dimension(row.dimension),

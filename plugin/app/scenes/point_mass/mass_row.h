@@ -4,6 +4,8 @@
 
 #include <abut/time.h>
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -26,6 +28,10 @@ namespace abut::app
      * does not move. */
     bool fixed_end = false;
   };
+
+  /** Declare the parameters of section `Masses` that all rows have.
+   * @param spring stiffness between neighbours by default */
+  void declare_row(dealii::ParameterHandler &prm, const std::string &spring);
 
   /** Matrices of masses that move, dense; unknown d of mass i is number
    * i * dimension + d. */

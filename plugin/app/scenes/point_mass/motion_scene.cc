@@ -5,8 +5,8 @@
 #include "app/input/short_number.h"
 #include "app/report/json.h"
 #include "app/restart/disk.h"
-#include "app/scenes/method_effects.h"
 #include "app/scenes/method_words.h"
+#include "app/scenes/motion_effects.h"
 #include "app/scenes/time_parameters.h"
 #include "motion.h"
 #include "motion_record.h"
@@ -90,18 +90,7 @@ namespace abut::app
           "plane along x, and each mass may touch it.");
       parameter::declare(prm, "Mass", "1", NumberPattern::positive(),
                          parameter::basic("mass", "2"), "Mass of each point.");
-      parameter::declare(prm, "Spacing", "1", NumberPattern::positive(),
-                         parameter::basic("length", "0.5"),
-                         "Distance between neighbours. Formulas see mass i, "
-                         "counted from 0, at x = i times this distance.");
-      parameter::declare(prm, "Spring", "0", NumberPattern::from(0),
-                         parameter::basic("force/length", "100"),
-                         "Stiffness of the springs between neighbours along "
-                         "the row (3D: along x and y).");
-      parameter::declare(prm, "Wall spring", "0", NumberPattern::from(0),
-                         parameter::advanced("force/length", "10"),
-                         "Stiffness of the spring between the last mass and a "
-                         "wall, along the row. 0: no spring.");
+      declare_row(prm, "0");
       prm.leave_subsection();
       prm.enter_subsection("Bar");
       parameter::declare(prm, "Elements", "none",
@@ -348,17 +337,7 @@ namespace abut::app
         rules.push_back(effective_if(std::string("Bar/") + name, Weight::data,
                                      is_bar,
                                      "it belongs to bars (Bar/Elements)."));
-      const std::vector<std::pair<const char *, const char *>> of_schemes = {
-          {"HHT alpha", "hht"},
-          {"Generalised alpha spectral radius", "generalised alpha"},
-          {"Newmark beta", "newmark"},
-          {"Newmark gamma", "newmark"},
-          {"Restitution", "velocity level"}};
-      for (const auto &[name, scheme] : of_schemes)
-        rules.push_back(effective_if(
-            std::string("Time stepping/") + name, Weight::setting,
-            scheme_is({scheme}), std::string("it belongs to ") + scheme + "."));
-      return rules;
+      return joined({rules, scheme_effects(Weight::setting)});
     }
 
     MassSystem MotionScene::make_system() const

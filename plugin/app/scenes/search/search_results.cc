@@ -119,12 +119,12 @@ namespace abut::app
               + short_text(found.largest_overlap) + " at (" + place + ")."));
     }
     if (found.size_ratio > 3)
-      report.warn(
-          coded(ABUT_FAILURE_COARSE_SECONDARY,
-                "the facets of the secondary surface are "
-                    + short_text(found.size_ratio)
-                    + " times as large as those of the primary surface, whose "
-                      "nodes may pass between its nodes: exchange the two."));
+      report.warn(coded(
+          ABUT_FAILURE_COARSE_SECONDARY,
+          "the facets of the secondary surface are "
+              + short_text(found.size_ratio)
+              + " times as large as those of the primary surface, which "
+                "may pass between its nodes: exchange the two surfaces."));
   }
 
   void SearchRun::report_statistics()

@@ -583,9 +583,10 @@ namespace abut::app
                "the stiffness of the bodies or the mass of the obstacle.";
     return "No equilibrium was found for "
            + parameters.obstacles[coordinates.front().obstacle].section
-           + ": after " + std::to_string(balance.n_places()) + " places "
+           + ": after " + std::to_string(balance.n_places())
+           + " positions its forces are out of balance by "
            + short_number(balance.error(), 3)
-           + " of them is left. Use smaller steps.";
+           + " of their size. Use smaller steps.";
   }
 
   template <int dim> void DrivenObstacles<dim>::commit()

@@ -191,9 +191,7 @@ namespace abut::app
            [is_driven](const SceneValues &values, const std::string &path)
            {
              if (!has_motion(values))
-               return std::string(
-                   "it belongs to dynamics, and Time stepping/Scheme is "
-                   "quasi-static. hht is a good first choice.");
+               return is_at_rest("hht");
              const std::string why = is_driven(values, path),
                                mass = section_of(path) + "/Mass";
              return !why.empty() || values.number(mass) > 0.

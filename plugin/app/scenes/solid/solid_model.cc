@@ -9,6 +9,7 @@
 #include "app/pictures/contact_output.h"
 #include "app/pictures/outline.h"
 #include "app/restart/archive.h"
+#include "app/scenes/common_parameters.h"
 #include "app/scenes/method_words.h"
 #include "shim/bodies.h"
 #include "solid_report.h"
@@ -625,6 +626,22 @@ namespace abut::app
            + "energy " + short_number(result.energy, 8);
   }
 
+  template <int dim> std::string SolidModel<dim>::discretisations() const
+  {
+    const bool is_quadratic = dim == 3 && parameters.simplex_degree == 2;
+    std::set<std::string> names;
+    for (const ContactPair<dim> &pair : pairs->pairs())
+    {
+      const bool has_simplices =
+          std::any_of(pair.secondary.begin(), pair.secondary.end(),
+                      [this](const boundary_id id)
+                      { return bodies.are_simplices(bodies.body_of(id)); });
+      names.insert(discretisation_name(run.method.discretisation_of(
+          pair.obstacle != nullptr, is_quadratic && has_simplices)));
+    }
+    return joined({names.begin(), names.end()}, " and ");
+  }
+
   template <int dim> std::string SolidModel<dim>::description() const
   {
     std::string text = counted(bodies.size(), "body", "bodies");
@@ -636,10 +653,7 @@ namespace abut::app
     {
       text += ", "
               + counted(pairs->pairs().size(), "contact pair", "contact pairs")
-              + "; " + law_in_words(run.method) + ", "
-              + (run.method.discretisation
-                     ? discretisation_name(run.method.discretisation)
-                     : "automatic discretisation");
+              + "; " + law_in_words(run.method) + ", " + discretisations();
       if (pairs->has_friction())
         text += ", friction";
       if (has_large_strain() || motion)
@@ -647,7 +661,7 @@ namespace abut::app
                 + std::string(kinematics_info(run.method.kinematics).name);
     }
     if (has_large_strain())
-      text += ", large strain";
+      text += ", finite strain";
     if (motion)
       text += std::string(", in time by ") + parameters.time.scheme.name;
     return text;

@@ -142,9 +142,12 @@ namespace abut::app
     /** Of the present solution. */
     ContactFields contact_fields() const;
 
-    /** What rigid motions the supports leave to each part of a body: a line
+    /** Rigid motions that the supports leave to each part of a body: a line
      * each. */
     std::vector<std::string> rigid_motions() const;
+
+    /** Names of the discretisations of all pairs. */
+    std::string discretisations() const;
 
     /** Whether forces of pressures and of friction are known by themselves: of
      * laws whose forces are stresses no force is that of a pressure alone. */

@@ -164,15 +164,14 @@ namespace abut::app
       {
         const std::vector<ContactLine> lines = lines_of(pair, contact_values);
         ++number;
-        collective(model.run.communicator,
-                   [&]
-                   {
-                     if (MPI::this_mpi_process(model.run.communicator) == 0)
-                       write_contact_lines(
-                           model.run.options.output_folder
-                               / ("pair_" + std::to_string(number) + ".csv"),
-                           lines);
-                   });
+        on_root(model.run.communicator,
+                [&]
+                {
+                  write_contact_lines(
+                      model.run.options.output_folder
+                          / ("pair_" + std::to_string(number) + ".csv"),
+                      lines);
+                });
       }
     }
   }
@@ -251,14 +250,12 @@ namespace abut::app
       size = std::max(size, high[d] - low[d]);
     }
     box.extend(0.15 * size);
-    collective(communicator,
-               [&]
-               {
-                 if (MPI::this_mpi_process(communicator) == 0)
-                   write_obstacles(model.run.options.output_folder
-                                       / "obstacles.vtu",
-                                   obstacles, box);
-               });
+    on_root(communicator,
+            [&]
+            {
+              write_obstacles(model.run.options.output_folder / "obstacles.vtu",
+                              obstacles, box);
+            });
   }
 
   template <int dim> void SolidOutput<dim>::write_closed_forms() const
@@ -278,14 +275,13 @@ namespace abut::app
         const std::vector<ContactLine> lines =
             lines_of(model.pairs->pairs()[i], model.contact_fields());
         const ClosedForm form(pair, results[i], model.run.present.time);
-        collective(model.run.communicator,
-                   [&]
-                   {
-                     if (MPI::this_mpi_process(model.run.communicator) == 0)
-                       write_closed_form(model.run.options.output_folder
-                                             / (key + ".csv"),
-                                         lines, form.pressure, form.friction);
-                   });
+        on_root(model.run.communicator,
+                [&]
+                {
+                  write_closed_form(model.run.options.output_folder
+                                        / (key + ".csv"),
+                                    lines, form.pressure, form.friction);
+                });
       }
     }
   }

@@ -43,9 +43,9 @@ namespace abut::app
         return;
       throw InputError(
           pair.parameter("Use mesh gap"),
-          "false leaves out where " + obstacle.section
-              + " is, also when it moves. Press with Initial gap = -0.01*t or "
-                "by a prescribed displacement, or set Use mesh gap = true.");
+          "false ignores the position of " + obstacle.section
+              + ", also when it moves. Press with Initial gap = -0.01*t or by "
+                "a prescribed displacement, or set Use mesh gap = true.");
     }
   } // namespace
 

@@ -3,6 +3,7 @@
 
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
+#include "app/scenes/common_parameters.h"
 
 #include <abut/dealii/number_pattern.h>
 #include <abut/dealii/parameter_entry.h>
@@ -120,9 +121,6 @@ namespace abut::app
                          parameter::expert("1", "0, 0, 0, -0.1"),
                          "Its gradient `du_x/dx, du_x/dy, du_y/dx, du_y/dy`. "
                          "Empty: by finite differences.");
-      parameter::declare(prm, "Energy", "nan", TextPattern("a number, or nan"),
-                         parameter::expert("force*length", "0.25"),
-                         "Energy of the exact solution; nan: unknown.");
       prm.leave_subsection();
 
       prm.enter_subsection("Output");
@@ -130,17 +128,6 @@ namespace abut::app
                          parameter::basic(),
                          "Whether displacement and stress are written as VTU "
                          "and PVD files for ParaView.");
-      parameter::declare(prm, "Every", "1", Patterns::Integer(1),
-                         parameter::advanced("time steps", "10"),
-                         "Time steps between two sets of fields of a motion. "
-                         "The last step is always written.");
-      parameter::declare(
-          prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
-          "Whether fields are written on every mesh, not only on the last.");
-      parameter::declare(
-          prm, "Nodal values", "false", Patterns::Bool(), parameter::advanced(),
-          "Whether displacement and forces at all nodes of the last mesh are "
-          "written to nodal.csv, in full precision.");
       parameter::declare(
           prm, "Points", "", TextPattern("a list of points by body"),
           parameter::advanced("length", "1: 0, 0; block: 1, 0.5"),
@@ -219,7 +206,8 @@ namespace abut::app
              "stepping/Scheme = hht, which damps high frequencies.");
     if (refinement.has_target())
       refuse("Refinement/Target error",
-             "the error estimate is guaranteed at small strain only; use "
+             "the error estimate is known to be reliable at small strain only; "
+             "use "
              "Refinement/Adaptive cycles, which refines by it.");
   }
 
@@ -279,6 +267,7 @@ namespace abut::app
         "A step that fails is halved, see `Cut back`.");
     RefinementParameters::declare(prm, "2", "0");
     declare_solid_results(prm);
+    declare_mesh_results(prm);
   }
 
   void SolidParameters::parse(ParameterHandler &prm, const SolidCounts &counts)

@@ -625,8 +625,8 @@ namespace abut::app
               "meshes): linear "
             + cells
             + " have constant strain in each cell and are too stiff. "
-              "Displacements under loads are too small, or forces at "
-              "prescribed displacements too large. Set Solid/Degree = 2."));
+              "Displacements under loads are too small by this part, or forces "
+              "at prescribed displacements too large. Set Solid/Degree = 2."));
     return locked;
   }
 
