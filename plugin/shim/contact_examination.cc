@@ -49,18 +49,29 @@ namespace abut::shim
       {
       }
 
-      void add(const abut_failure failure, const bool is_error,
-               const std::string &text, const double between_nodes = 0.,
-               const std::size_t pair = 0)
+      /** Set the pair of the findings that follow. */
+      void begin_pair(const std::size_t number, const std::string &name)
       {
-        ContactFinding finding(coded(failure, text), is_error);
+        number_ = number;
+        name_ = name;
+      }
+
+      void add(const abut_failure failure, const bool is_error,
+               const std::string &text, Message::Numbers numbers = {},
+               const double between_nodes = 0.)
+      {
+        ContactFinding finding(coded(failure, text, std::move(numbers)),
+                               is_error);
         finding.between_nodes = between_nodes;
-        finding.pair_number = pair;
+        finding.pair_number = number_;
+        finding.pair = name_;
         result_.findings.push_back(finding);
       }
 
     private:
       ContactExamination &result_;
+      std::size_t number_ = 0;
+      std::string name_;
     };
 
     void judge_strain(const ContactExamination &seen, const bool allow,
@@ -84,7 +95,11 @@ namespace abut::shim
                      : "")
               + (is_error ? "; if such strains are meant, set Solid/Accept "
                             "strains beyond linear theory."
-                          : "."));
+                          : "."),
+          {{"largest strain", seen.strain},
+           {"mean strain", seen.mean_strain},
+           {"warning limit", visible_strain},
+           {"error limit", useless_strain}});
     }
 
     void judge_balance(const double imbalance, Findings &findings)
@@ -94,7 +109,10 @@ namespace abut::shim
                      "Forces are out of balance by " + percent(imbalance)
                          + " of the load (limit " + percent(visible_imbalance)
                          + "). Check the sign of the residual: internal "
-                           "minus external forces, at the last displacement.");
+                           "minus external forces, at the last displacement.",
+                     {{"imbalance", imbalance},
+                      {"warning limit", visible_imbalance},
+                      {"error limit", useless}});
     }
 
     /** A depth with what it is compared with. */
@@ -130,7 +148,8 @@ namespace abut::shim
                 + (touches_itself ? "boundary ids and a pair of their own for "
                                     "the two parts, and "
                                   : "")
-                + "Method/Contact geometry = current it follows.");
+                + "Method/Contact geometry = current it follows.",
+            {{"slip", pair.slip}, {"facet", facet}, {"error limit", length}});
       if (is_obstacle && scale.is_more(pair.gap_error, visible_gap_error))
         findings.add(
             ABUT_FAILURE_SLIDING, scale.is_more(pair.gap_error, useless),
@@ -145,7 +164,10 @@ namespace abut::shim
                 + (is_mortar ? ". On curved obstacles use Method/Contact "
                                "geometry = current, with Method/Discretisation "
                                "= node to segment or quadrature point."
-                             : "."));
+                             : "."),
+            {{"slip", pair.slip},
+             {"gap error", pair.gap_error},
+             {"compared with", scale.way}});
     }
 
     /** Whether turned forces have a resultant with a component that is another
@@ -181,7 +203,11 @@ namespace abut::shim
               + numbers(dealii::Tensor<1, dim>(pair.secondary_force
                                                + pair.rotated_force))
               + ". Use Method/Contact geometry = current where possible, or "
-                "smaller motions.");
+                "smaller motions.",
+          {{"mean rotation", pair.rotation},
+           {"largest rotation", pair.largest_rotation},
+           {"warning limit", visible_rotation},
+           {"error limit", useless}});
     }
 
     template <int dim>
@@ -194,7 +220,8 @@ namespace abut::shim
                          + compared(scale, soft)
                          + ". The contact is far too soft: use a larger "
                            "Method/Penalty factor, or Method/Enforcement = "
-                           "augmented lagrangian or lagrange.");
+                           "augmented lagrangian or lagrange.",
+                     {{"penetration", soft}, {"compared with", scale.way}});
       if (scale.is_more(pair.held_inside, useless))
         findings.add(
             ABUT_FAILURE_HELD_NODES, true,
@@ -203,7 +230,8 @@ namespace abut::shim
                   "surface inside the other body by up to "
                 + compared(scale, pair.held_inside)
                 + ". Contact cannot move them: leave these nodes free along "
-                  "the normal, or change the prescribed displacement.");
+                  "the normal, or change the prescribed displacement.",
+            {{"depth", pair.held_inside}, {"compared with", scale.way}});
       if (pair.n_prescribed > 0)
         findings.add(
             ABUT_FAILURE_HELD_NODES, false,
@@ -213,7 +241,8 @@ namespace abut::shim
                 + std::to_string(pair.n_prescribed)
                 + "). Forces there are reactions of supports, without "
                   "friction. Leave these nodes free along the normal if "
-                  "contact is to carry them.");
+                  "contact is to carry them.",
+            {{"nodes", pair.n_prescribed}});
     }
 
     /** Facets that rotate by a large angle: polygons that are in each other. */
@@ -235,7 +264,8 @@ namespace abut::shim
                   "body, which weighted gaps see in the mean only, by up to "
                 + compared(scale, depth)
                 + ". Refine the surfaces; if they are meant to fit, set Use "
-                  "mesh gap = false.");
+                  "mesh gap = false.",
+            {{"depth", depth}, {"compared with", scale.way}});
     }
 
     /** Straight facets whose distance from their curve is as large as all that
@@ -251,14 +281,15 @@ namespace abut::shim
                   "nodes of the other surface, by up to "
                 + compared(scale, error)
                 + ", since gaps are those of polygons. Refine the surfaces; if "
-                  "they are meant to fit, set Use mesh gap = false.");
+                  "they are meant to fit, set Use mesh gap = false.",
+            {{"distance", error}, {"compared with", scale.way}});
     }
 
     template <int dim>
-    void judge_between(const PairResult<dim> &pair, const std::size_t place,
-                       const bool is_obstacle, const double peak,
-                       const double size, const double size_ratio,
-                       const DepthScale &scale, Findings &findings)
+    void judge_between(const PairResult<dim> &pair, const bool is_obstacle,
+                       const double peak, const double size,
+                       const double size_ratio, const DepthScale &scale,
+                       Findings &findings)
     {
       // Rows that are soft have a report of their own.
       const double between = pair.between_rows - std::max(0., pair.penetration);
@@ -278,7 +309,8 @@ namespace abut::shim
                   + (size_ratio > 1.
                          ? ". Exchange the two sides, or refine the secondary."
                          : ". Refine the secondary."),
-              if_flat(between), place);
+              {{"depth", pair.between_rows}, {"compared with", scale.way}},
+              if_flat(between));
         return;
       }
       const bool missed = pair.missed_depth > missed_part * size
@@ -300,7 +332,11 @@ namespace abut::shim
                                 + number(pair.missed_depth)
                           : std::string())
                 + ". Refine the surface there; smaller load steps do not help.",
-            if_flat(hidden ? unknown : between), place);
+            {{"depth", pair.between_rows},
+             {"undetected depth", unknown},
+             {"missed depth", pair.missed_depth},
+             {"compared with", scale.way}},
+            if_flat(hidden ? unknown : between));
     }
 
     void judge_separated_rows(const std::string &pair,
@@ -320,15 +356,18 @@ namespace abut::shim
                                   "Method/Discretisation = mortar."
                                 : "Gaps are evaluated where the points were "
                                   "paired: use Method/Contact geometry = "
-                                  "current, or smaller motions."));
+                                  "current, or smaller motions."),
+                     {{"gap", apart.gap},
+                      {"part of the force", apart.force / apart.all},
+                      {"compared with", scale.way}});
     }
 
     void judge_width(const std::string &pair, const ObstacleWidth &narrowest,
                      Findings &findings)
     {
       if (narrowest.width < 2. * narrowest.facet)
-        findings.add(ABUT_FAILURE_UNSEEN, false,
-                     pair + ": " + narrowest.text());
+        findings.add(ABUT_FAILURE_UNSEEN, false, pair + ": " + narrowest.text(),
+                     {{"width", narrowest.width}, {"facet", narrowest.facet}});
     }
 
     /** Bodies in the obstacle elsewhere than at the surface of the pair: the
@@ -352,10 +391,15 @@ namespace abut::shim
       const std::string depth = compared(scale, found.elsewhere);
       if (is_error && passed.is_below_facets())
         findings.add(ABUT_FAILURE_UNSEEN, true,
-                     pair + ": " + found.between_nodes(depth) + passed.text());
+                     pair + ": " + found.between_nodes(depth) + passed.text(),
+                     {{"depth", found.elsewhere},
+                      {"compared with", scale.way},
+                      {"width", passed.width},
+                      {"facet", passed.facet}});
       else if (is_error || scale.is_more(found.elsewhere, visible_inside))
-        findings.add(ABUT_FAILURE_WRONG_SIDE, is_error,
-                     pair + ": " + found.text(depth));
+        findings.add(
+            ABUT_FAILURE_WRONG_SIDE, is_error, pair + ": " + found.text(depth),
+            {{"depth", found.elsewhere}, {"compared with", scale.way}});
     }
 
     /** Surfaces in an obstacle that they have no constraint with: a small one
@@ -371,7 +415,8 @@ namespace abut::shim
                      pair + ": the surface is in the obstacle by "
                          + compared(scale, depth)
                          + ", without a constraint. Refine the surface there, "
-                           "or use smaller load steps.");
+                           "or use smaller load steps.",
+                     {{"depth", depth}, {"compared with", scale.way}});
     }
 
     /** The deepest of all ranks. */
@@ -439,7 +484,11 @@ namespace abut::shim
                             "to "
                                 + number(deepest.missed)
                           : std::string())
-                + ". Refine the mesh there.");
+                + ". Refine the mesh there.",
+            {{"depth", deepest.any},
+             {"undetected depth", peak},
+             {"missed depth", deepest.missed},
+             {"compared with", scale.way}});
     }
   } // namespace
 
@@ -514,6 +563,7 @@ namespace abut::shim
         i.row_states().data());
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
+      findings.begin_pair(p, pairs[p].name);
       const bool is_obstacle = i.input.pairs[p].obstacle != nullptr;
       const DepthScale &scale = scales[p];
       const bool follows = kinematics_info(i.input.method.kinematics).points
@@ -528,7 +578,7 @@ namespace abut::shim
       judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i), scale,
                    findings);
       const auto &narrowest = surface_pairs[p].narrowest;
-      judge_between(pairs[p], p, is_obstacle,
+      judge_between(pairs[p], is_obstacle,
                     Deepest(facet_penetrations, p, i.communicator).peak,
                     std::min(checks[p].facet_size, narrowest.width),
                     checks[p].size_ratio, scale, findings);

@@ -143,7 +143,8 @@ namespace abut::shim
                    ? "In dynamics the first step removes this penetration and "
                      "adds energy; in equilibrium its force moves the obstacle "
                      "out. Start with the two apart."
-                   : "Move the bodies apart, unless interference is meant."));
+                   : "Move the bodies apart, unless interference is meant."),
+        {{"overlap", depth}, {"thickness", body}, {"facet", found.facet_size}});
   }
 
   template <int dim>
@@ -256,7 +257,8 @@ namespace abut::shim
           ABUT_FAILURE_COARSE_SECONDARY,
           "The secondary surface is " + text(result.size_ratio)
               + " times as coarse as the primary, whose nodes can pass between "
-                "its nodes. Exchange the two sides, or refine the secondary."));
+                "its nodes. Exchange the two sides, or refine the secondary.",
+          {{"ratio of facets", result.size_ratio}}));
     result.first_overlap = first_overlap(number, result.overlap);
     const Message overlap = overlap_at_start(pair, result);
     if (!overlap.empty())
@@ -275,8 +277,9 @@ namespace abut::shim
                   "The surfaces meet on a width of " + text(width)
                       + ", where the smallest facet of one of them is "
                       + text(smallest)
-                      + ": the load acts on single nodes, and the penetration "
-                        "is far too small. Refine this surface there."));
+                      + ": the load acts on single nodes, and the indentation "
+                        "is far too small. Refine this surface there.",
+                  {{"width", width}, {"facet", smallest}}));
     }
     const std::string bends = turning_facets(pair);
     if (!bends.empty())
@@ -286,7 +289,8 @@ namespace abut::shim
                     + text(large_rotation)
                     + " degrees at a node in the contact zone: normals, gaps "
                       "and pressures are those of a polygon. Refine the "
-                      "surface, or leave the corner out of the pair."));
+                      "surface, or leave the corner out of the pair.",
+                {{"degrees", large_rotation}}));
     const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {

@@ -25,7 +25,8 @@ namespace abut::shim
          << " Within a step the motion must be smaller than the thickness of "
             "the thinner one. Use a smaller Time stepping/Step size, or a "
             "slower obstacle (Motion, velocity, forces).";
-    Message message = coded(ABUT_FAILURE_NO_PARTNER, text.str());
+    Message message = coded(ABUT_FAILURE_NO_PARTNER, text.str(),
+                            {{"motion", way}, {"thickness", 2. * half}});
     message.field = PairField::obstacle;
     return message;
   }

@@ -30,7 +30,10 @@ namespace abut::solve
     throw SolverFailure(coded(std::isfinite(failure.last_residual)
                                   ? ABUT_FAILURE_LINEAR_SOLVER
                                   : ABUT_FAILURE_NOT_FINITE,
-                              text.str()));
+                              text.str(),
+                              {{"iterations", failure.last_step},
+                               {"residual", failure.last_residual},
+                               {"tolerance", tolerance}}));
   }
 
   void check_direct_solution(const double before, const double after)
@@ -42,6 +45,7 @@ namespace abut::solve
          << ". The matrix is singular or nearly singular. Check for bodies "
             "without supports and for materials or penalties of very different "
             "stiffness.";
-    throw SolverFailure(coded(ABUT_FAILURE_LINEAR_SOLVER, text.str()));
+    throw SolverFailure(coded(ABUT_FAILURE_LINEAR_SOLVER, text.str(),
+                              {{"residual", after}, {"before", before}}));
   }
 } // namespace abut::solve

@@ -174,7 +174,7 @@ near(expect(run(plate, "Pair 1/Use mesh gap=false", "Obstacle 1/Motion=",
 
 # Loads that do not grow with t are all there in the smallest load step.
 expect(run(p.source / "prm/pipe.prm", "Body 1/Material=st venant-kirchhoff"), 3,
-       "ABUT-F46", "failed as well", "Multiply their formulas by t")
+       "ABUT-F46", "failed as well", "Multiply such formulas by t")
 
 # A gap that leaves nothing of what it is added to lets everything through: half
 # of what bounded obstacles are thick, all of what a body is; less is meant.

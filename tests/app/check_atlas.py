@@ -35,6 +35,13 @@ summary = json.loads((p.folder
                       / "atlas/penalty-small/failing/summary.json").read_text())
 p.expect(any(line.startswith("ABUT-F06: ") for line in summary["warnings"]),
          f"warnings: {summary['warnings']}")
+found = [finding for finding in summary["findings"].values()
+         if "penetration" in finding["numbers"]]
+p.expect(len(found) == 1 and found[0]["code"] == "ABUT-F06"
+         and found[0]["pair"] == "Pair 1"
+         and abs(found[0]["numbers"]["penetration"] - summary["max_penetration"])
+         <= 1e-12 * summary["max_penetration"],
+         f"findings: {summary['findings']}")
 
 # Wrong expectations, one after the other, of an entry that is right.
 MASS = """set Scene = point mass

@@ -144,7 +144,7 @@ result = p.call("run", PRM / "rigid-plate.prm", "--output", "out", "--verbose")
 for key in json.loads((p.folder / "out/summary.json").read_text()):
     p.expect(key in result.stdout or key in (
         "warnings", "codes", "not_used", "could_be_left_out", "modelled",
-        "sections", "expected", "title", "examination", "failures")
+        "sections", "expected", "title", "examination", "failures", "findings")
              or value_of(json.loads((p.folder / "out/summary.json")
                                     .read_text()), key) in (None, [], ""),
              f"--verbose prints no {key}")

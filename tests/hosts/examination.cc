@@ -115,6 +115,13 @@ namespace
                  + std::to_string(strain));
       expect(has(seen, ABUT_FAILURE_LARGE_STRAIN, false) == (strain == 0.1),
              "a warning of strain " + std::to_string(strain));
+      // A host reads the value, not the sentence.
+      for (const ContactFinding &finding : seen.findings)
+        if (finding.failure == ABUT_FAILURE_LARGE_STRAIN)
+          for (const auto &[name, value] : finding.numbers)
+            expect(name != "largest strain"
+                       || std::abs(value / strain - 1.) < 1e-6,
+                   "number of the finding " + std::to_string(value));
       // A third in the mean is an error already.
       expect(has(seen, ABUT_FAILURE_LARGE_STRAIN, true) == (strain > 0.3)
                  && seen.is_usable() == (strain < 0.3),

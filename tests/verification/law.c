@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Contact laws of other programs, pressure p of the gap g; -D LAW=... chooses:
  * LINEAR         p = k <-g>, parameter k;
- * SMOOTH_LINEAR  p = k d (1/2 + atan(d/e)/pi) with d = -g and e = pi s/k: surfaces
- *                far apart pull with the tension s, parameters k and s;
- * EXPONENTIAL    p = p0 exp(-ln(100) g/c0), a hundredth of p0 at the gap c0,
- *                parameters c0 and p0. */
+ * SMOOTH_LINEAR  p = k d (1/2 + atan(d/e)/pi) with d = -g and e = pi s/k:
+ * surfaces far apart pull with the tension s, parameters k and s; EXPONENTIAL
+ * p = p0 exp(-ln(100) g/c0), a hundredth of p0 at the gap c0, parameters c0 and
+ * p0. */
 #include <abut/user_law.h>
 #include <math.h>
 
@@ -53,8 +53,8 @@ static abut_status
 classify(const abut_law_points *at, uint8_t *state)
 {
   for (int32_t i = 0; i < at->n; ++i)
-    state[i] = LAW != LINEAR || at->gap[i] < 0 ? ABUT_STATE_CLOSED
-                                               : ABUT_STATE_OPEN;
+    state[i] =
+        LAW != LINEAR || at->gap[i] < 0 ? ABUT_STATE_CLOSED : ABUT_STATE_OPEN;
   return ABUT_SUCCESS;
 }
 

@@ -4,9 +4,13 @@
 
 #include <abut/failure.h>
 
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace abut
 {
@@ -22,16 +26,21 @@ namespace abut
     largest_friction /**< the largest traction */
   };
 
-  /** A message: the known failure, and the pair, its field and the body that it
-   * is about, as data, and the text for the user. Programs read the data, never
-   * the text. */
+  /** A message: the known failure, the pair, its field and the body that it is
+   * about, and what was measured, as data, and the text for the user. Programs
+   * read the data, never the text. */
   struct Message
   {
+    /** Measured values and their limits, by name; lengths in the unit of the
+     * mesh, parts of 1. */
+    using Numbers = std::vector<std::pair<std::string, double>>;
+
     abut_failure failure = ABUT_FAILURE_NONE; /**< NONE: no known one */
     std::string text; /**< begins with the code of coded() */
     std::string pair; /**< name; empty: none */
     PairField field = PairField::surfaces; /**< of the pair */
-    int body = -1; /**< number from 0 of a body without support */
+    int body = -1;   /**< number from 0 of a body without support */
+    Numbers numbers; /**< that the text states */
 
     Message() = default;
 
@@ -81,17 +90,20 @@ namespace abut
     /** For ranks that exchange messages. */
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &failure &text &pair &field &body;
+      archive &failure &text &pair &field &body &numbers;
     }
   };
 
   /** A message about a known failure, with its code in front: `ABUT-F06: text`.
-   * The text alone for ABUT_FAILURE_NONE. */
-  inline Message coded(const abut_failure failure, const std::string &text)
+   * The text alone for ABUT_FAILURE_NONE.
+   * @param numbers that the text states */
+  inline Message coded(const abut_failure failure, const std::string &text,
+                       Message::Numbers numbers = {})
   {
     const abut_failure_entry *entry = abut_failure_get(failure);
     Message message(entry == nullptr ? text : entry->code + (": " + text));
     message.failure = failure;
+    message.numbers = std::move(numbers);
     return message;
   }
 

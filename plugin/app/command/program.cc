@@ -170,6 +170,7 @@ namespace abut::app
     {
       MPI_Comm communicator = options.communicator;
       const Outcome outcome = run_to_end(loaded, options, report);
+      loaded.describe_solution(report);
       if (outcome == Outcome::stopped)
       {
         report.print("\n  stopped; 'abut run ... --resume' goes on from the "

@@ -104,8 +104,8 @@ namespace abut::app
           has_nodes = has_nodes || section == "$Nodes";
           has_elements = has_elements || section == "$Elements";
           if (lines.text() != end_of(section))
-            lines.complain("'" + lines.text() + "' is in place of "
-                           + end_of(section) + ": " + section
+            lines.complain("'" + lines.text() + "' where " + end_of(section)
+                           + " is expected: " + section
                            + " has more lines than it announces.");
         }
         if (!has_nodes || !has_elements)

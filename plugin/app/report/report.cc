@@ -87,6 +87,18 @@ namespace abut::app
       return std::visit(Visitor(), value);
     }
 
+    /** The parameters of lines `Section/Name: why`, the first few. */
+    std::string names_of(const std::vector<std::string> &lines)
+    {
+      constexpr std::size_t most = 4;
+      std::string text;
+      for (std::size_t i = 0; i < std::min(most, lines.size()); ++i)
+        text += (i > 0 ? ", " : "") + lines[i].substr(0, lines[i].find(": "));
+      if (lines.size() > most)
+        text += " and " + std::to_string(lines.size() - most) + " more";
+      return text;
+    }
+
     /** Name and remedy of each known failure that was warned of. */
     void write_failures(JsonWriter &json, const std::vector<std::string> &codes)
     {
@@ -99,6 +111,28 @@ namespace abut::app
           json.value("remedy", remedy(*entry));
           json.end();
         }
+      json.end();
+    }
+
+    /** The data of messages, numbered from 1 in the order of `warnings`. */
+    void write_findings(JsonWriter &json, const std::vector<Message> &messages)
+    {
+      json.begin("findings");
+      for (std::size_t i = 0; i < messages.size(); ++i)
+      {
+        const Message &message = messages[i];
+        const auto *known = abut_failure_get(message.failure);
+        json.begin(std::to_string(i + 1));
+        json.value("code", std::string(known != nullptr ? known->code : ""));
+        json.value("pair", message.pair);
+        if (message.body >= 0)
+          json.value("body", static_cast<std::int64_t>(message.body) + 1);
+        json.begin("numbers");
+        for (const auto &[name, number] : message.numbers)
+          json.value(name, number);
+        json.end();
+        json.end();
+      }
       json.end();
     }
 
@@ -245,7 +279,7 @@ namespace abut::app
   void Report::warn(const Message &message)
   {
     const std::string &line = message.text;
-    warnings.push_back(line);
+    warnings.push_back(message);
     if (const auto *known = abut_failure_get(message.failure))
     {
       const auto place =
@@ -347,7 +381,11 @@ namespace abut::app
     for (const ExpectedFigure &figure : expected)
       json.value(figure.key, figure.value);
     json.end();
-    json.value("warnings", warnings);
+    std::vector<std::string> texts;
+    for (const Message &message : warnings)
+      texts.push_back(message.text);
+    json.value("warnings", texts);
+    write_findings(json, warnings);
     json.value("codes", codes);
     write_failures(json, codes);
     json.value("not_used", unused);
@@ -496,8 +534,8 @@ namespace abut::app
       out << "\n  Not used\n";
     for (const std::string &line : unused)
       out << "  " << line << "\n";
-    for (const std::string &line : warnings)
-      out << "\n  warning: " << line << "\n";
+    for (const Message &message : warnings)
+      out << "\n  warning: " << message.text << "\n";
   }
 
   void Report::print_summary()
@@ -510,8 +548,8 @@ namespace abut::app
     if (verbosity == Verbosity::all)
       print_all(out);
     else if (!unused.empty())
-      out << "  settings without effect, listed by --verbose: " << unused.size()
-          << "\n";
+      out << "  settings without effect, reasons by --verbose: "
+          << names_of(unused) << "\n";
     std::cout << out.str() << std::flush;
   }
 } // namespace abut::app

@@ -145,7 +145,7 @@ namespace abut::app
 
     /** A line for the user that is printed even when quiet, and again at the
      * end. Collected under the key `warnings`; known failures, see coded(),
-     * under `codes`, too. */
+     * under `codes`, too, and the data of messages under `findings`. */
     void warn(const Message &message);
 
     std::size_t n_warnings() const
@@ -257,7 +257,7 @@ namespace abut::app
     std::vector<SectionTimes::Section> sections;
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    std::vector<std::string> warnings;
+    std::vector<Message> warnings;
     std::vector<std::string> codes; ///< sorted, each once
     std::vector<ModelLine> model_lines;
     std::vector<std::string> left_out;

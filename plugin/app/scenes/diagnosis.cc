@@ -57,7 +57,8 @@ namespace abut::app
         "Method/Penalty factor is " + short_number(penalty, 3)
             + " times the local stiffness, outside of the sensible range "
             + short_number(softest, 2) + " to " + short_number(stiffest, 2)
-            + ". It is dimensionless: use auto."));
+            + ". It is dimensionless: use auto.",
+        {{"penalty", penalty}, {"least", softest}, {"largest", stiffest}}));
   }
 
   Message diagnose_solver_failure(const Message &message, const double penalty)
@@ -69,7 +70,8 @@ namespace abut::app
                      + " times the local stiffness makes the matrix too badly "
                        "conditioned: use a smaller Method/Penalty factor. "
                        "Message of the linear solver: "
-                     + uncoded(message));
+                     + uncoded(message),
+                 {{"penalty", penalty}});
   }
 
   void diagnose_iteration(Report &report, const abut_progress &progress,
@@ -88,7 +90,9 @@ namespace abut::app
                     + ", so that " + std::to_string(progress.fallback_steps)
                     + " iterations changed one constraint each. The solution "
                       "is correct; Method/Enforcement = interior point has no "
-                      "active set."));
+                      "active set.",
+                {{"steps before the cycle", progress.cycle_length},
+                 {"iterations", progress.fallback_steps}}));
     if (is_cold && n_layers > many_steps)
       report.warn(coded(
           ABUT_FAILURE_COLD_START,
@@ -96,7 +100,8 @@ namespace abut::app
               + " active set iterations from displacement 0: each changes "
                 "the set by one layer of nodes, and twice as fine a mesh "
                 "needs twice as many. Set Refinement/Nested "
-                "iteration = true, which starts from coarser meshes."));
+                "iteration = true, which starts from coarser meshes.",
+          {{"iterations", progress.step}}));
   }
 
   bool diagnose_balance(Report &report, const double imbalance,
@@ -138,7 +143,10 @@ namespace abut::app
                             "and contact forces far below the other forces.")
               : "the linear system was not solved to its tolerance. Try "
                     + digits + " or Solver/Linear solver = direct.";
-    const Message text = coded(cause, seen + why);
+    const Message text = coded(cause, seen + why,
+                               {{"imbalance", imbalance},
+                                {"warning limit", visible_imbalance},
+                                {"error limit", useless_imbalance}});
     if (!(imbalance <= useless_imbalance))
     {
       failure = text;
@@ -185,7 +193,11 @@ namespace abut::app
                      "Method/Enforcement = lagrange."
                    : "Contact allows penetration: use a larger Method/Penalty "
                      "factor or a smaller Gap tolerance, or Method/Enforcement "
-                     "= lagrange."));
+                     "= lagrange."),
+        {{"energy doubled", works.stored},
+         {"difference", part},
+         {"warning limit", visible_work},
+         {"error limit", useless_work}});
     return ContactFinding(text, part > useless_work);
   }
 
@@ -238,13 +250,14 @@ namespace abut::app
     const std::string seen = "Conjugate gradients found a condition number of "
                              + short_number(condition, 2)
                              + " although the matrix was " + "preconditioned. ";
-    report.warn(
-        coded(cause, penalty > 0.
-                         ? seen + "The penalty of " + short_number(penalty, 2)
-                               + " times the local stiffness is too large "
-                                 "for multigrid: set Solver/Contact filter "
-                                 "= true, or use a smaller Method/Penalty "
-                                 "factor."
-                         : seen + "Try Solver/Linear solver = direct."));
+    report.warn(coded(cause,
+                      penalty > 0.
+                          ? seen + "The penalty of " + short_number(penalty, 2)
+                                + " times the local stiffness is too large "
+                                  "for multigrid: set Solver/Contact filter "
+                                  "= true, or use a smaller Method/Penalty "
+                                  "factor."
+                          : seen + "Try Solver/Linear solver = direct.",
+                      {{"condition", condition}, {"limit", large_condition}}));
   }
 } // namespace abut::app

@@ -6,6 +6,7 @@
 #include "app/report/json.h"
 #include "app/restart/disk.h"
 #include "common_parameters.h"
+#include "method_effects.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -130,6 +131,18 @@ namespace abut::app
       old += (old.empty() ? "old names: " : "; ") + line;
     if (!old.empty())
       report.print("  " + old + ".");
+  }
+
+  void LoadedScene::describe_solution(Report &report) const
+  {
+    const SceneValues values(declared, file);
+    if (values("Solver/Linear solver") != "auto"
+        || report.number("linear_iterations") != 0.)
+      return;
+    for (const EffectRule &rule : iteration_effects())
+      if (values.is_set(rule.parameters))
+        report.not_used(rule.parameters
+                        + ": all linear systems were solved directly.");
   }
 
   std::string LoadedScene::parameters_json() const

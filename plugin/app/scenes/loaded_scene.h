@@ -28,6 +28,9 @@ namespace abut::app
     /** Write what is known before the solve. */
     void describe(Report &report) const;
 
+    /** Write what is known after it: settings that it did not use. */
+    void describe_solution(Report &report) const;
+
     /** The scene with all its parameters: value and default of each, and where
      * the value is from. */
     std::string parameters_json() const;

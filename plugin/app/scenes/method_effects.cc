@@ -157,31 +157,36 @@ namespace abut::app
     return rules;
   }
 
-  EffectRules solver_effects()
+  EffectRules iteration_effects()
   {
-    const std::string iterative =
-        "it belongs to Solver/Linear solver = iterative or auto.";
-    EffectRules rules = {
-        setting(
-            "Solver/Direct limit",
-            [](const SceneValues &values)
-            { return values("Solver/Linear solver") == "auto"; },
-            "it belongs to Solver/Linear solver = auto."),
-        setting(
-            "Solver/Saddle point augmentation",
-            [](const SceneValues &values)
-            {
-              return may_iterate(values)
-                     && values("Method/System") != "condensed"
-                     && law_may_be(values, [](const abut_law &law)
-                                   { return abut_law_is_exact(&law); });
-            },
-            "it belongs to iterative solvers of saddle point systems.")};
+    EffectRules rules;
     for (const char *name : {"Maximum iterations", "Aggregation threshold",
                              "Smoother sweeps", "Contact filter"})
       rules.push_back(
-          setting(std::string("Solver/") + name, may_iterate, iterative));
+          setting(std::string("Solver/") + name, may_iterate,
+                  "it belongs to Solver/Linear solver = iterative or auto."));
     return rules;
+  }
+
+  EffectRules solver_effects()
+  {
+    return joined(
+        {{setting(
+              "Solver/Direct limit",
+              [](const SceneValues &values)
+              { return values("Solver/Linear solver") == "auto"; },
+              "it belongs to Solver/Linear solver = auto."),
+          setting(
+              "Solver/Saddle point augmentation",
+              [](const SceneValues &values)
+              {
+                return may_iterate(values)
+                       && values("Method/System") != "condensed"
+                       && law_may_be(values, [](const abut_law &law)
+                                     { return abut_law_is_exact(&law); });
+              },
+              "it belongs to iterative solvers of saddle point systems.")},
+         iteration_effects()});
   }
 
   EffectRules refinement_effects()

@@ -26,6 +26,9 @@ namespace abut::app
    * that have none; @p instead says how contact acts there. */
   EffectRules no_discretisation(const std::string &instead);
 
+  /** Section `Solver`: what iterative solvers alone use. */
+  EffectRules iteration_effects();
+
   /** Section `Solver`. */
   EffectRules solver_effects();
 

@@ -69,7 +69,8 @@ namespace abut::app
             + (stops ? "of impacts: areas in contact lose their velocity, "
                        "without restitution, on any mesh."
                      : "of the mesh at impacts, smaller on a finer one" + other
-                           + "."));
+                           + "."),
+        {{"lost part of the energy", balance.loss}});
   }
 
   Message text_of_lost_motion(const abut_time_scheme &scheme,
@@ -92,7 +93,8 @@ namespace abut::app
             + short_number(100. * fall / after.scale, 3)
             + " % of the energy without contact as a cause. The step is longer "
               "than the slowest oscillation. Use a smaller Time stepping/Step "
-              "size, a larger density or mass, or less stiffness.");
+              "size, a larger density or mass, or less stiffness.",
+        {{"lost part of the energy", fall / after.scale}});
   }
 
   void TimeParameters::declare(dealii::ParameterHandler &prm,

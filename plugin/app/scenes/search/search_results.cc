@@ -102,7 +102,8 @@ namespace abut::app
           ABUT_FAILURE_WRONG_SIDE,
           std::to_string(found.n_reversed)
               + " nodes have facets within reach, but all face in the same "
-                "direction as the node. Is one of the surfaces inside out?"));
+                "direction as the node. Is one of the surfaces inside out?",
+          {{"nodes", found.n_reversed}}));
     if (found.n_overlaps > 0)
     {
       const auto dim = static_cast<std::size_t>(secondary.arrays.dimension);
@@ -116,15 +117,17 @@ namespace abut::app
           ABUT_FAILURE_OVERLAP,
           std::to_string(found.n_overlaps)
               + " nodes overlap the primary surface from the start, by up to "
-              + short_text(found.largest_overlap) + " at (" + place + ")."));
+              + short_text(found.largest_overlap) + " at (" + place + ").",
+          {{"nodes", found.n_overlaps}, {"overlap", found.largest_overlap}}));
     }
     if (found.size_ratio > 3)
-      report.warn(coded(
-          ABUT_FAILURE_COARSE_SECONDARY,
-          "the facets of the secondary surface are "
-              + short_text(found.size_ratio)
-              + " times as large as those of the primary surface, which "
-                "may pass between its nodes: exchange the two surfaces."));
+      report.warn(
+          coded(ABUT_FAILURE_COARSE_SECONDARY,
+                "the facets of the secondary surface are "
+                    + short_text(found.size_ratio)
+                    + " times as large as those of the primary surface, which "
+                      "may pass between its nodes: exchange the two surfaces.",
+                {{"ratio of facets", found.size_ratio}}));
   }
 
   void SearchRun::report_statistics()
@@ -158,7 +161,8 @@ namespace abut::app
                     + " facets were tested for each pair found: the bucket "
                       "size is far from the size of the facets. Set "
                       "Search/Bucket size = auto, or Search/Algorithm = "
-                      "adaptive buckets if sizes differ much."));
+                      "adaptive buckets if sizes differ much.",
+                {{"tests per pair", per_pair}}));
     if (s.bucket_raised != 0)
       report.warn(
           coded(ABUT_FAILURE_BUCKETS,

@@ -147,17 +147,20 @@ namespace abut::app
       { return values("Dimension") == "3"; };
       const std::string plane = "it is drawn along lines of contact, which "
                                 "scenes in 3 dimensions do not have.";
-      return {{"Solid/Obstacles", Weight::data, unused_obstacle},
-              of_pairs("Closed form", without_formulas,
-                       "the pair has no formula of it."),
-              of_pairs("Closed form of pressure", in_space, plane),
-              of_pairs("Closed form of friction", in_space, plane),
-              of_pairs("Initial gap", is_tied, tied),
-              of_pairs("Use mesh gap", is_tied, tied),
-              of_pairs("Friction", is_tied, tied),
-              of_pairs("Largest friction", without_friction,
-                       "the pair has no friction: set Friction, perhaps to a "
-                       "large coefficient.")};
+      return {
+          {"Solid/Obstacles", Weight::data, unused_obstacle},
+          of_pairs(
+              "Closed form", without_formulas,
+              "the name of a closed form needs its formula: set Closed form "
+              "of pressure or Closed form of friction."),
+          of_pairs("Closed form of pressure", in_space, plane),
+          of_pairs("Closed form of friction", in_space, plane),
+          of_pairs("Initial gap", is_tied, tied),
+          of_pairs("Use mesh gap", is_tied, tied),
+          of_pairs("Friction", is_tied, tied),
+          of_pairs("Largest friction", without_friction,
+                   "the pair has no friction: set Friction, perhaps to a "
+                   "large coefficient.")};
     }
 
     EffectRules of_obstacles()

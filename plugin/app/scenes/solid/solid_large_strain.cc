@@ -50,7 +50,8 @@ namespace abut::app
                     + short_number(seen.least_at_corners, 3)
                     + " of its volume there; quadrature points do not detect "
                       "it, and the equilibrium may be unreachable. Use smaller "
-                      "load steps, or refine the mesh there."),
+                      "load steps, or refine the mesh there.",
+                {{"least relative volume", seen.least_at_corners}}),
           false);
     if (seen.excess <= 0.)
       return findings;
@@ -66,7 +67,9 @@ namespace abut::app
                   + material.below_least_stretch + ". Set "
                   + bodies[seen.where].parameter("Material") + " = "
                   + material.instead
-                  + ", or check the units of loads and stiffness."),
+                  + ", or check the units of loads and stiffness.",
+              {{"least stretch", seen.allowed - seen.excess},
+               {"limit", seen.allowed}}),
         true);
     return findings;
   }

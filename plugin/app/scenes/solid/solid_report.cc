@@ -225,7 +225,8 @@ namespace abut::app
                 + " % of a uniform pressure to wrong nodes of its primary "
                   "surface, because the meshes do not match. The contact "
                   "pressure has an error of this size on all meshes. Use "
-                  "Method/Discretisation = mortar or dual mortar."));
+                  "Method/Discretisation = mortar or dual mortar.",
+            {{"transfer error", error}, {"limit", visible_transfer_error}}));
     }
   }
 
@@ -595,14 +596,16 @@ namespace abut::app
     report.examined("volumetric_locking", locked, visible_locking, no_limit,
                     ABUT_FAILURE_LOCKING);
     if (locked > visible_locking)
-      report.warn(coded(ABUT_FAILURE_LOCKING,
-                        short_number(100. * locked, 2)
-                            + " % of the strain energy is spurious volume "
-                              "change of linear elements: with Poisson ratio "
-                            + short_number(poisson_ratio, 6)
-                            + " they lock; displacements are too small and "
-                              "contact forces too large. Set Body N/Element = "
-                              "mean dilatation, or Solid/Degree = 2."));
+      report.warn(
+          coded(ABUT_FAILURE_LOCKING,
+                short_number(100. * locked, 2)
+                    + " % of the strain energy is spurious volume "
+                      "change of linear elements: with Poisson ratio "
+                    + short_number(poisson_ratio, 6)
+                    + " they lock; displacements are too small and "
+                      "contact forces too large. Set Body N/Element = "
+                      "mean dilatation, or Solid/Degree = 2.",
+                {{"part of the energy", locked}, {"limit", visible_locking}}));
     return locked;
   }
 
@@ -626,7 +629,8 @@ namespace abut::app
             + cells
             + " have constant strain in each cell and are too stiff. "
               "Displacements under loads are too small by this part, or forces "
-              "at prescribed displacements too large. Set Solid/Degree = 2."));
+              "at prescribed displacements too large. Set Solid/Degree = 2.",
+        {{"part of the energy", locked}, {"limit", visible_stiffness}}));
     return locked;
   }
 
