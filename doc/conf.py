@@ -22,7 +22,7 @@ root_doc = "contents"
 exclude_patterns = ["examples"]
 nitpicky = True
 
-myst_enable_extensions = ["dollarmath", "amsmath", "html_image"]
+myst_enable_extensions = ["colon_fence", "dollarmath", "amsmath", "html_image"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
 # The notebook links to sources; pages of the site do not have them.

@@ -224,6 +224,55 @@ def finger(abut, folder):
     style.save(figure, folder, "tutorial-finger")
 
 
+def step_8_sketch(axes):
+    axes.add_patch(patches.Rectangle((-1, -1), 2, 2, facecolor=style.SKY, alpha=0.5,
+                                     edgecolor=style.BLACK, linewidth=0.8))
+    wall(axes, -1, -1.2, 1.2, 0.2)
+    axes.text(-1.1, 1.28, "clamped", ha="center", fontsize=7)
+    wall(axes, 1.2, -1.2, 1.2, 0.2)
+    axes.text(1.1, 1.28, "wall", ha="center", fontsize=7)
+    for x, (right, up) in ((-0.5, (0.35, 0)), (0.5, (0.35, 0)), (0, (0, 0.35))):
+        axes.add_patch(patches.Circle((x, 0), 0.2, facecolor=style.ORANGE, linewidth=0.6,
+                                      edgecolor=style.BLACK))
+        arrow(axes, (x, 0), (x + right, up))
+    for y in (1.06, -1.06):
+        for x in numpy.linspace(-0.8, 0.8, 5):
+            axes.add_patch(patches.Circle((x, y), 0.06, facecolor="white", linewidth=0.6,
+                                          edgecolor=style.BLACK))
+    axes.text(0, 1.28, "guides", ha="center", fontsize=7)
+    axes.set_xlim(-1.4, 1.4)
+    axes.set_ylim(-1.35, 1.5)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def step_8(vtk, folder):
+    """The displacement in x of a file that DataOut has written."""
+    words = vtk.read_text(encoding="utf-8").split()
+    begin = words.index("POINTS") + 3
+    points = numpy.array(words[begin:begin + 3 * int(words[begin - 2])], float)
+    points = points.reshape(-1, 3)
+    begin = words.index("CELLS") + 3
+    cells = numpy.array(words[begin:begin + 5 * int(words[begin - 2])], int)
+    cells = cells.reshape(-1, 5)[:, 1:]
+    begin = words.index("x_displacement") + 5
+    values = numpy.array(words[begin:begin + len(points)], float)
+    figure, [(sketch, field)] = style.figure(style.PAGE, 0.45, columns=2)
+    step_8_sketch(sketch)
+    shown = PolyCollection(points[cells][:, :, :2], array=values[cells].mean(axis=1),
+                           cmap=style.FIELD_MAP, edgecolors="#00000060", linewidths=0.15,
+                           rasterized=True)
+    field.add_collection(shown)
+    style.plane_map(field)
+    field.set_xlim(-1, 1)
+    field.set_ylim(-1, 1)
+    field.set_xlabel("$x$")
+    field.set_ylabel("$y$")
+    figure.colorbar(shown, ax=field, label="displacement $u_x$", shrink=0.9)
+    style.letters((sketch, field))
+    style.save(figure, folder, "tutorial-step-8")
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("abut", type=pathlib.Path)
@@ -234,6 +283,8 @@ def main():
     impact(abut, arguments.folder)
     law(abut, arguments.folder)
     finger(abut, arguments.folder)
+    if arguments.vtk:
+        step_8(arguments.vtk, arguments.folder)
 
 
 if __name__ == "__main__":

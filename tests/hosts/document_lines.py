@@ -108,7 +108,7 @@ template void membrane(abut::ContactAssembler<2> &);
 
 def main():
     source, output = map(pathlib.Path, sys.argv[1:])
-    blocks = re.findall(r"```cpp\n(.*?)```", source.read_text(), re.DOTALL)
+    blocks = re.findall(r"```cpp \{show\}\n(.*?)```", source.read_text(), re.DOTALL)
     if len(blocks) != len(re.findall(r"@\d@", HEAD)):
         sys.exit(f"{len(blocks)} blocks of C++ lines in {source}")
     include = re.compile(r"^#include.*\n", re.MULTILINE)

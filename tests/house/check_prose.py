@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Language of the manual: sentences of 20 words in the mean on each page, at most 5 %
 of them above 35 words, and none of the words that the style excludes. Reads
-CONTRIBUTING.md and the pages of doc that are not listed in NOTEBOOK, but development
-notes (doc/develop) and generated pages; code, formulas, tables and headings are no
-sentences. No line of these and of generated pages has a date, a machine or an attempt.
+CONTRIBUTING.md and the pages of doc without development notes (doc/develop) and
+generated pages; code, formulas, tables and headings are no sentences. No line of these and of generated pages has a date, a machine or an attempt.
 
     tests/house/check_prose.py [--table]"""
 import argparse
@@ -16,10 +15,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEAN, LONG, SHARE = 20, 35, 0.05
 GENERATED = {"commands", "failures", "parameters"}  # by the program
 REFERENCE = GENERATED | {"output", "verification"}  # not a part of the guide
-# Documents before the manual, which are to be rewritten or moved.
-NOTEBOOK = set("""
-your-program
-""".split())
 
 WORDS = [(re.compile(pattern, re.I), use) for pattern, use in (
     (r"\b(?:is|are|was|be) told\b|\btells?\b|\bknows\b|\basks\b",
@@ -99,7 +94,7 @@ def pages():
     for page in sorted((ROOT / "doc").rglob("*.md")):
         name = page.relative_to(ROOT / "doc")
         if name.parts[0] not in ("develop", "examples", "pictures") and \
-                str(name)[:-3] not in NOTEBOOK | GENERATED:
+                str(name)[:-3] not in GENERATED:
             yield page
 
 
