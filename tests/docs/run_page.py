@@ -30,7 +30,7 @@ import tempfile
 import time
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-SECONDS = 120  # a block takes 5 s at most; this is for a machine with other work
+SECONDS = 240  # a block takes 5 s at most, a program 20 s; this is for a machine with other work
 LINE = re.compile(r"^(?P<fence>```+)(?P<info>.*)$|^<!-- expect (?P<expect>.*) -->$")
 INFO = re.compile(r"^(?P<language>\w+) \{(?P<intent>run|output|check|compile|show)"
                   r"(?: (?P<more>[\w.-]+))?\}$")
