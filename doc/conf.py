@@ -52,7 +52,7 @@ class Parameters(lexer.RegexLexer):
         (r"#.*$", token.Comment),
         (r"^(\s*)(subsection)( .*?)$",
          lexer.bygroups(token.Text, token.Keyword, token.Name.Namespace)),
-        (r"^(\s*)(end)\s*$", lexer.bygroups(token.Text, token.Keyword)),
+        (r"^(\s*)(end)[ \t]*$", lexer.bygroups(token.Text, token.Keyword)),
         (r"^(\s*)(set)( [^=\n]*)(=)([^#\n]*)",
          lexer.bygroups(token.Text, token.Keyword, token.Name.Attribute,
                         token.Operator, token.String)),
