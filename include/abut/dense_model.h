@@ -44,7 +44,7 @@ extern "C"
   /** Solve the model with the method of @p options. Penalties are multiples of
    * the stiffness of a component, sum_k B_k^2 K_kk / ((sum_k B_k^2)^2 w), which
    * for one unknown is K B^-2 / w. Costs O((n + n_components)^3) per linear
-   * system. CALLBACK_FAILED if K is singular with what is closed in some step:
+   * system. SINGULAR if K is singular with what is closed in some step:
    * then begin with a state that holds the body. If points slip then, that is
    * the reason UNHELD instead, unless @p reason is NULL: friction does not hold
    * the body, and u is that of the step before. In the rows of tangents the

@@ -32,6 +32,7 @@ extern "C"
   X(CALLBACK_FAILED, 5, "a function supplied by the caller reported failure")  \
   X(INVALID_MESH, 6, "a facet or node of the surface is not usable")           \
   X(FAILED_ELSEWHERE, 7, "the call failed on another rank")                    \
+  X(SINGULAR, 8, "a matrix is singular")                                       \
   X(OUT_OF_MEMORY, -1, "out of memory")                                        \
   X(INTERNAL, -2, "internal error")
 

@@ -304,9 +304,9 @@ run(dense_host *host, abut_strategy *strategy, uint8_t *state,
  * end of the iteration, else a failure. */
 static abut_status
 explain_singular(const dense_host *host, const abut_strategy *strategy,
-                 abut_progress *progress, abut_reason *reason,
-                 abut_status status)
+                 abut_progress *progress, abut_reason *reason)
 {
+  const abut_status status = ABUT_SINGULAR;
   if (!host->slips)
     return abut_fail(host->context, status, call,
                      "the stiffness is singular with the closed constraints: "
@@ -393,7 +393,7 @@ abut_dense_model_solve_sized(abut_context *context,
   if (status == ABUT_SUCCESS)
     status = run(&host, strategy, state, progress, reason);
   if (host.singular)
-    status = explain_singular(&host, strategy, progress, reason, status);
+    status = explain_singular(&host, strategy, progress, reason);
   abut_strategy_destroy(&strategy);
   abut_array_release(context, &host.block);
   abut_array_release(context, &host.pivots);

@@ -184,7 +184,7 @@ namespace abut::app
         context.get(), &model, &options, trial.displacement.data(),
         pressure.data(), state.data(), nullptr, nullptr, &last_progress,
         &reason);
-    if (status != ABUT_SUCCESS && status != ABUT_CALLBACK_FAILED)
+    if (status != ABUT_SUCCESS && status != ABUT_SINGULAR)
       return coded(
           ABUT_FAILURE_NOT_FINITE,
           std::string("forces and springs exceed the range of numbers (")

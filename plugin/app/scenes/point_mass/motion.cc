@@ -247,7 +247,7 @@ namespace abut::app
       throw std::range_error(shim::core_message(context.get()));
   }
 
-  Message Motion::why_unsolved(const bool not_finite) const
+  Message Motion::why_unsolved(const abut_status status) const
   {
     const auto largest = [](const std::vector<double> &matrix)
     {
@@ -262,12 +262,12 @@ namespace abut::app
                               + " and springs of " + short_number(stiffness, 3);
     // Squares of these leave the range of numbers, and none is an answer.
     constexpr double most = 1e100;
-    const std::string what = shim::core_message(context.get());
-    if (not_finite && std::max(mass, stiffness) < most)
+    if (status == ABUT_NOT_FINITE && std::max(mass, stiffness) < most)
       return coded(ABUT_FAILURE_BLOW_UP, "a value of the motion is infinite");
-    if (not_finite || what.find("singular") == std::string::npos)
+    if (status != ABUT_SINGULAR)
       return coded(ABUT_FAILURE_NOT_FINITE,
-                   sizes + " exceed the range of numbers (" + what
+                   sizes + " exceed the range of numbers ("
+                       + shim::core_message(context.get())
                        + "). Choose other units of lengths, masses and times.");
     return coded(ABUT_FAILURE_FLOATING_BODY,
                  "inertia is below round-off of the stiffness: " + sizes
@@ -287,7 +287,7 @@ namespace abut::app
         context.get(), &model, &options, y.data(), forces.data(), nullptr,
         nullptr, nullptr, &progress, &reason);
     if (status != ABUT_SUCCESS)
-      return why_unsolved(status == ABUT_NOT_FINITE);
+      return why_unsolved(status);
     return reason == ABUT_REASON_CONVERGED
                ? ""
                : coded(abut_reason_failure(reason, options.law, &progress),

@@ -99,7 +99,7 @@ namespace abut::app
     void require(abut_status status) const;
     /** Why masses and springs have no answer, after a call of the core failed.
      */
-    Message why_unsolved(bool not_finite = false) const;
+    Message why_unsolved(abut_status status = ABUT_INVALID_ARGUMENT) const;
     Message solve_model(const abut_dense_model &model,
                         const abut_strategy_options &options,
                         std::vector<double> &y, std::vector<double> &forces);
