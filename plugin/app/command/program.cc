@@ -351,9 +351,12 @@ namespace abut::app
         return std::filesystem::exists(folder / "outline.json");
       }
 
-      ExitCode draw() const
+      ExitCode draw(Report &report) const
       {
-        return run_tool({"sketch", folder.string(), sketch});
+        const ExitCode code = run_tool({"sketch", folder.string(), sketch});
+        if (code == ExitCode::success)
+          report.print("  sketch: " + sketch);
+        return code;
       }
 
       const std::string sketch;
@@ -384,12 +387,12 @@ namespace abut::app
       catch (const InputError &)
       {
         if (sketch && sketch->has_outline())
-          sketch->draw();
+          sketch->draw(report);
         throw;
       }
       report.print_summary();
       report.print("\n  " + line.file + ": no errors found");
-      return sketch ? sketch->draw() : ExitCode::success;
+      return sketch ? sketch->draw(report) : ExitCode::success;
     }
 
     /** run, check and search. An error in the input is thrown with the place of

@@ -5,6 +5,7 @@ parameters.json. `abut check --draw` makes a file of it, `abut report` a part of
 its page."""
 import json
 import math
+import os
 import re
 
 import numpy
@@ -515,8 +516,13 @@ def main(words):
     width, height = figure.get_size_inches()
     figure.set_size_inches(width, height + 4.2 * len(handles) * style.MM)
     style.legend_above(figure, handles, 1)
+    folder = os.path.dirname(arguments.file) or "."
+    if not os.path.isdir(folder):
+        raise InputError(f"--draw {arguments.file}: there is no folder {folder}.")
     try:
-        figure.savefig(arguments.file, metadata={"Date": None}
+        # Words of the legend may be wider than a narrow sketch.
+        figure.savefig(arguments.file, bbox_inches="tight",
+                       metadata={"Date": None}
                        if arguments.file.endswith(".svg") else None)
     except (OSError, ValueError) as error:
         raise InputError(f"--draw {arguments.file}: {error}.") from error
