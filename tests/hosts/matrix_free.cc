@@ -422,8 +422,8 @@ namespace
 
 namespace
 {
-  /** A line of doc/develop/solvers.md: iterations and seconds with the operator, which
-   * heeds what is held or not, and with the matrix. */
+  /** A line of doc/develop/solvers.md: iterations and seconds with the
+   * operator, which heeds what is held or not, and with the matrix. */
   template <int dim>
   void print_line(BlockCase run, const ContactPair<dim> &pair,
                   const std::string &name)
