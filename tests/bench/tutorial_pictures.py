@@ -334,8 +334,28 @@ def friction(runs, folder):
     style.save(figure, folder, "tutorial-friction-stick")
 
 
-def ironing(_, folder):
+def ironing(runs, folder):
     sketch_die(folder)
+    run = runs.run("die", "die", "Time stepping/Number of steps=80")
+    runs.draw(run, "bodies", "tutorial-ironing-bodies", folder)
+    coarse = runs.run("die", "coarse", "Time stepping/Number of steps=10")
+    figure, ((axes,),) = style.figure(style.PAGE, 0.42)
+    for i, (name, column, sign) in enumerate((("vertical $V$", "pair_1_force_y", -1),
+                                              ("horizontal $H$", "pair_1_force_x", 1))):
+        time, force = (numpy.array([0] + [float(row[key]) for row in
+                                          table(run / "levels.csv")])
+                       for key in ("time", column))
+        axes.plot(time, sign * force, color=style.COLOURS[i], label=name)
+        if i == 0:
+            axes.plot(time, -0.3 * force, color=style.GREY, linestyle="--",
+                      label="$0.3\\,V$")
+        axes.plot([float(row["time"]) for row in table(coarse / "levels.csv")],
+                  [sign * float(row[column]) for row in table(coarse / "levels.csv")],
+                  color=style.COLOURS[i], linestyle="", marker=style.MARKERS[i])
+    axes.set_xlabel("time $t$")
+    axes.set_ylabel("force on the block [N/mm]")
+    style.legend(axes)
+    style.save(figure, folder, "tutorial-ironing-forces")
 
 
 PAGES = {each.__name__: each for each in (block, hertz, friction, ironing)}
