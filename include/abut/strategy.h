@@ -110,6 +110,10 @@ extern "C"
     /** The same for the last solve; default 1e-10. If it is not below
      * linear_tolerance there is no last solve of its own. */
     double final_linear_tolerance;
+    /** Error of the law of friction that may remain at slipping points,
+     * relative to the largest pressure; default 1e-10, which one more solve
+     * then lowers to round-off. */
+    double traction_tolerance;
     int32_t max_steps; /**< linear systems in all; default 200 */
     int32_t max_outer; /**< outer steps; default 60 */
     /** Sums (or maximum) over ranks of n values in place; NULL in serial. */
@@ -150,6 +154,7 @@ extern "C"
     options.pressure_tolerance = 1e-3;
     options.linear_tolerance = 1e-2;
     options.final_linear_tolerance = 1e-10;
+    options.traction_tolerance = 1e-10;
     options.max_steps = 200;
     options.max_outer = 60;
     return options;

@@ -551,6 +551,11 @@ namespace abut::shim
     if (system.tolerance > 0.)
       options.linear_tolerance = options.final_linear_tolerance =
           system.tolerance;
+    // evaluate_moved() measures the remaining error, and the iteration does not
+    // end before it is small.
+    if (moves())
+      options.traction_tolerance =
+          std::max(options.traction_tolerance, 0.1 * system.tolerance);
     strategy = create_strategy(context.get(), options);
     set_friction(*this);
 

@@ -319,10 +319,55 @@ refused(void **unused)
   assert_ok(abut_context_destroy(&context));
 }
 
+/* A law that may be missed by a part of the largest pressure is missed by no
+ * more than that (the distance along the surface by which it is missed is
+ * larger by the inverse of the stiffness, 0.1 or more), in fewer systems. */
+static void
+a_loose_law(void **unused)
+{
+  (void)unused;
+  const frictional_ranges ranges = {{0.05, 0.5}, {2, 50}};
+  abut_context *context = NULL;
+  assert_ok(abut_context_create(NULL, &context));
+  const double tolerance[2] = {1e-10, 1e-3};
+  int32_t n_steps[2] = {0, 0};
+  double worst[2] = {0, 0};
+  uint64_t seed = 7;
+  for (int problem = 0; problem < MANY; ++problem)
+  {
+    const frictional drawn = frictional_draw(3, &ranges, &seed);
+    for (int k = 0; k < 2; ++k)
+    {
+      abut_strategy_options options = abut_strategy_defaults();
+      options.linear_tolerance = options.final_linear_tolerance;
+      options.traction_tolerance = tolerance[k];
+      frictional_answer answer;
+      memset(&answer, 0, sizeof(answer));
+      frictional_solve(context, &drawn, &options, false, &answer);
+      assert_ok(answer.status);
+      assert_int_equal(answer.reason, ABUT_REASON_CONVERGED);
+      double largest = 0;
+      for (int32_t i = 0; i < drawn.n; ++i)
+        largest = fmax(largest, fabs(answer.p[i]));
+      n_steps[k] += answer.progress.step;
+      if (largest > 0)
+        worst[k] =
+            fmax(worst[k],
+                 frictional_violation(&drawn, answer.u, answer.p) / largest);
+    }
+  }
+  assert_true(n_steps[1] < n_steps[0] - MANY / 4);
+  assert_true(worst[0] <= 10 * tolerance[0]);
+  assert_true(worst[1] <= 10 * tolerance[1]);
+  assert_true(worst[1] > tolerance[0]);
+  abut_context_destroy(&context);
+}
+
 int
 main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_loose_law),
       cmocka_unit_test(the_return_map_is_linearised),
       cmocka_unit_test(the_return_map_goes_to_and_fro),
       cmocka_unit_test(tresca_contracts_by_the_coupling),

@@ -146,6 +146,7 @@ limits_are_those_of_the_check(void **unused)
       {"barrier_factor", &options.barrier_factor, false, true},
       {"linear_tolerance", &options.linear_tolerance, false, true},
       {"final_linear_tolerance", &options.final_linear_tolerance, false, true},
+      {"traction_tolerance", &options.traction_tolerance, false, true},
       {"gap_tolerance", &options.gap_tolerance, false, false},
   };
   for (size_t i = 0; i < sizeof(numbers) / sizeof(numbers[0]); ++i)

@@ -22,9 +22,9 @@ static const double pressure_noise = 1e-10, gap_noise = 1e-12;
  * accuracy for the rest of the matrix. */
 static const double stiff = 1e10;
 
-/* Tractions that miss their bound by less, relative to the largest pressure,
- * meet it; above the second number one solve more is worth its cost, since
- * Newton's method converges quadratically. */
+/* Where traction_tolerance is not above the first number, tractions that miss
+ * their bound by more than the second one, relative to the largest pressure,
+ * are worth one more solve, since Newton's method converges quadratically. */
 static const double traction_noise = 1e-10, sharp_traction = 1e-13;
 
 /* Result of the rows of all ranks after a step. */
@@ -104,10 +104,10 @@ find_maxima(abut_strategy *s, findings *found)
     const bool is_tangent = s->bilateral[i] == ABUT_ROW_TANGENT;
     max[PRESSURE] = abut_larger(max[PRESSURE], fabs(s->pressure[i]));
     max[GAP_CHANGE] = abut_larger(max[GAP_CHANGE], fabs(s->dg[i]));
-    if (slope > 0)
-      max[DEFECT] = abut_larger(max[DEFECT], fabs(s->residual[i]) / slope);
     if (is_tangent && abut_friction_row_is_free(s, i))
       max[TRACTION] = abut_larger(max[TRACTION], fabs(s->residual[i]));
+    else if (slope > 0)
+      max[DEFECT] = abut_larger(max[DEFECT], fabs(s->residual[i]) / slope);
     if (is_tangent)
       continue;
     max[PENETRATION] =
@@ -411,10 +411,11 @@ finish(abut_strategy *s, const findings *found, abut_reason reason)
     set->defect = INFINITY;
     return abut_strategy_request_solve(s, final, true);
   }
+  const double allowed = s->options.traction_tolerance;
   if (found->defect <= limit
-      && found->traction_defect <= traction_noise * found->max_pressure)
+      && found->traction_defect <= allowed * found->max_pressure)
   {
-    if (set->polished
+    if (set->polished || allowed > traction_noise
         || found->traction_defect <= sharp_traction * found->max_pressure)
       return settle_friction(s, reason);
     set->polished = true;

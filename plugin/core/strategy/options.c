@@ -49,6 +49,7 @@ static const entry entries[] = {
     POSITIVE(pressure_tolerance),
     NUMBER(linear_tolerance, ABUT_SMALLEST_NUMBER, 1, false, true),
     NUMBER(final_linear_tolerance, ABUT_SMALLEST_NUMBER, 1, false, true),
+    NUMBER(traction_tolerance, ABUT_SMALLEST_NUMBER, 1, false, true),
     COUNT(max_steps),
     COUNT(max_outer),
 };
