@@ -7,7 +7,9 @@ namespace abut::shim
 {
   void MovingRows::clear()
   {
-    geometry_.reset();
+    has_geometry_ = has_moved_ = false;
+    geometry_ = solve::MatrixLines();
+    moved_.reset();
     substitution_.reset();
     increment_ = la::Vector();
     changes_ = PartnerChanges();
@@ -16,19 +18,9 @@ namespace abut::shim
   void MovingRows::set_geometry(const std::vector<MatrixLine> &lines,
                                 const la::Vector &start)
   {
-    const dealii::IndexSet owned = start.locally_owned_elements();
-    dealii::IndexSet ghosts(owned.size());
     for (const MatrixLine &line : lines)
-      if (!owned.is_element(line.row))
-        ghosts.add_index(line.row);
-    ghosts.compress();
-    geometry_ = std::make_unique<la::Matrix>(
-        la::assemble(owned, ghosts, start.get_mpi_communicator(),
-                     [&](const auto &visit)
-                     {
-                       for (const MatrixLine &line : lines)
-                         visit(line.row, line.column, line.value);
-                     }));
+      geometry_.add(line.row, line.column, line.value);
+    has_geometry_ = true;
     start_ = present_ = start;
   }
 
@@ -46,22 +38,34 @@ namespace abut::shim
 
   const la::Matrix &MovingRows::with_geometry(const la::Matrix &matrix)
   {
-    if (geometry_ == nullptr)
+    if (!has_geometry_)
       return matrix;
-    sum_ = std::make_unique<la::Matrix>(la::sum(matrix, *geometry_));
+    sum_.set(matrix);
+    sum_.add(geometry_);
     if (substitution_ != nullptr)
-      sum_ = std::make_unique<la::Matrix>(
-          la::sum(*sum_, substitution_->product(*sum_)));
-    return *sum_;
+      sum_.add(substitution_->product(sum_.matrix()));
+    return sum_.matrix();
   }
 
-  la::Vector MovingRows::with_geometry(const la::Vector &residual) const
+  la::Vector MovingRows::with_geometry(const la::Vector &residual)
   {
-    if (geometry_ == nullptr)
+    if (!has_moved_)
       return residual;
+    if (moved_ == nullptr)
+    {
+      const dealii::IndexSet owned = start_.locally_owned_elements();
+      dealii::IndexSet ghosts(owned.size());
+      for (const auto row : geometry_.row)
+        if (!owned.is_element(row))
+          ghosts.add_index(row);
+      ghosts.compress();
+      moved_ = std::make_unique<la::Matrix>(
+          la::assemble(owned, ghosts, start_.get_mpi_communicator(),
+                       [&](const auto &visit) { geometry_.for_each(visit); }));
+    }
     la::Vector way(present_), result(residual);
     way -= start_;
-    geometry_->vmult_add(result, way);
+    moved_->vmult_add(result, way);
     return result;
   }
 

@@ -4,6 +4,7 @@
 
 #include "row_source.h"
 #include "solve/gap_substitution.h"
+#include "solve/kept_matrix.h"
 
 #include <abut/dealii/detection_report.h>
 
@@ -31,20 +32,21 @@ namespace abut::shim
 
     bool has_geometry() const
     {
-      return geometry_ != nullptr;
+      return has_geometry_;
     }
 
     /** The host's matrix with that; lives until the next call. Collective. */
     const la::Matrix &with_geometry(const la::Matrix &matrix);
 
-    /** The residual with that, as far as the iteration has come. */
-    la::Vector with_geometry(const la::Vector &residual) const;
+    /** The residual with that, as far as the iteration has come. Collective. */
+    la::Vector with_geometry(const la::Vector &residual);
 
     /** The iteration has come to this displacement. */
     void move_to(const la::Vector &displacement)
     {
-      if (has_geometry())
+      if (has_geometry_)
         present_ = displacement;
+      has_moved_ = has_geometry_;
     }
 
     /** Make the displacements from the result of a solver, and store that.
@@ -64,8 +66,11 @@ namespace abut::shim
     }
 
   private:
-    std::unique_ptr<la::Matrix> geometry_; ///< null: none
-    std::unique_ptr<la::Matrix> sum_;      ///< null: not made yet
+    bool has_geometry_ = false, has_moved_ = false;
+    solve::MatrixLines geometry_; ///< of this and other ranks
+    solve::KeptMatrix sum_;
+    /** The matrix of them, once it is needed; else null. */
+    std::unique_ptr<la::Matrix> moved_;
     /** Solvers see its v; null: the displacement. */
     std::unique_ptr<solve::GapSubstitution> substitution_;
     la::Vector start_, present_; ///< displacements, with geometry

@@ -189,10 +189,12 @@ namespace abut::solve
         }
   }
 
-  la::Matrix CondensedMatrix::assemble_springs() const
+  MatrixLines CondensedMatrix::springs() const
   {
-    return la::assemble(rows_->owned(), rows_->ghosts(), rows_->communicator(),
-                        [&](const auto &visit) { for_each_spring(visit); });
+    MatrixLines result;
+    for_each_spring([&](const auto row, const auto &columns, const auto &values)
+                    { result.add(row, columns, values); });
+    return result;
   }
 
   void CondensedMatrix::for_each_term(const VisitLine &visit) const
@@ -200,35 +202,42 @@ namespace abut::solve
     if (has_springs_)
       for_each_spring(visit);
     if (has_springs_ && has_pivots_)
-      for_each_elimination_term(
-          la::sum(stiffness_.matrix(), assemble_springs()), *rows_, condensate_,
-          visit);
+    {
+      KeptMatrix whole;
+      whole.set(stiffness_.matrix());
+      whole.add(springs());
+      for_each_elimination_term(whole.matrix(), *rows_, condensate_, visit);
+    }
     else if (has_pivots_)
       for_each_elimination_term(stiffness_.matrix(), *rows_, condensate_,
                                 visit);
   }
 
-  la::Matrix CondensedMatrix::eliminate(const la::Matrix &whole) const
+  void CondensedMatrix::eliminate(KeptMatrix &whole) const
   {
-    la::Matrix result =
-        la::sum(whole, elimination_terms(whole, *rows_, condensate_));
+    MatrixLines terms;
+    for_each_elimination_term(
+        whole.matrix(), *rows_, condensate_,
+        [&](const auto row, const auto &columns, const auto &values)
+        { terms.add(row, columns, values); });
+    whole.add(terms);
     const std::vector<double> diagonal =
         la::diagonal(la::local_rows(stiffness_.matrix()));
-    const la::LocalRows lines = la::local_rows(result);
+    const la::LocalRows lines = la::local_rows(whole.matrix());
     for (const int i : pivot_rows_)
     {
       const int line = rows_->column(condensate_.pivot[i]);
       for (int k = lines.start[line]; k < lines.start[line + 1]; ++k)
         lines.value[k] = lines.column[k] == line ? diagonal[line] : 0.;
     }
-    return result;
   }
 
-  la::Matrix CondensedMatrix::assemble() const
+  void CondensedMatrix::assemble(KeptMatrix &result) const
   {
-    if (!has_springs_)
-      return eliminate(stiffness_.matrix());
-    la::Matrix whole = la::sum(stiffness_.matrix(), assemble_springs());
-    return has_pivots_ ? eliminate(whole) : std::move(whole);
+    result.set(stiffness_.matrix());
+    if (has_springs_)
+      result.add(springs());
+    if (has_pivots_)
+      eliminate(result);
   }
 } // namespace abut::solve

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_CONDENSED_MATRIX_H
 
 #include "elimination.h"
+#include "kept_matrix.h"
 #include "pivots.h"
 #include "stiffness.h"
 
@@ -65,11 +66,9 @@ namespace abut::solve
     /** Set a vector to 0 at pivots. */
     void zero_pivots(la::Vector &vector) const;
 
-    /** The matrix with the diagonal of K at pivots. A sum of sparse products
-     * with matrices that are empty but for rows in contact, which takes less
-     * than a tenth of the setup of a multigrid method. Not for a plain matrix,
-     * which is K. Collective. */
-    la::Matrix assemble() const;
+    /** Make @p result the matrix, with the diagonal of K at pivots: K and lines
+     * near rows in contact. Collective. */
+    void assemble(KeptMatrix &result) const;
 
     /** Entries of the matrix in addition to K line by line, see
      * for_each_elimination_term(). Rows and columns of pivots, which sum up to
@@ -78,8 +77,8 @@ namespace abut::solve
 
   private:
     template <typename Visit> void for_each_spring(const Visit &visit) const;
-    la::Matrix assemble_springs() const;
-    la::Matrix eliminate(const la::Matrix &whole) const;
+    MatrixLines springs() const;
+    void eliminate(KeptMatrix &whole) const;
     /** Call function(row, first row, rows, first number) for each pivot of a
      * point: the number is that of the pivot's row in the blocks. */
     template <typename Function>

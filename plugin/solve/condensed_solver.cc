@@ -72,9 +72,16 @@ namespace abut::solve
   {
   }
 
+  CondensedSolver::~CondensedSolver()
+  {
+    if (assembled_ != nullptr)
+      *space_.left = std::move(assembled_);
+  }
+
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
+    assembled_.reset();
     geometric_.reset();
   }
 
@@ -86,7 +93,6 @@ namespace abut::solve
     keeper_.forget();
     filter_.reset();
     multigrid_.reset();
-    direct_.reset();
   }
 
   void CondensedSolver::renew(const Stiffness &stiffness,
@@ -98,7 +104,7 @@ namespace abut::solve
     // Multigrid looks at the matrix that it was built on, which must be an own
     // copy to last.
     if (!keeper_.is_built() || is_direct()
-        || (assembled_ == nullptr && geometric_ == nullptr)
+        || (!is_assembled_ && geometric_ == nullptr)
         || built_.pivot.size() != static_cast<std::size_t>(rows.n_rows()))
       reinit(stiffness, rows, row_stiffness);
     else
@@ -259,8 +265,6 @@ namespace abut::solve
     filter_.reset();
     multigrid_.reset();
     softened_.reset();
-    direct_.reset();
-    assembled_.reset();
     const bool has_model =
         matrix_.has_blocks() && !is_direct() && !matrix_.is_plain();
     built_ = has_model ? without_friction_forces() : matrix_.condensate();
@@ -269,31 +273,46 @@ namespace abut::solve
         !is_direct() && parameters_.contact_filter && has_stiff_springs();
     if (choice_.is_geometric() && !is_filtered)
     {
+      is_assembled_ = false;
+      assembled_.reset();
       build_geometric();
       return;
     }
     geometric_.reset();
-    if (has_model)
-    {
-      CondensedMatrix symmetric;
-      symmetric.reinit(*stiffness_, *rows_);
-      symmetric.set(built_);
-      assembled_ = std::make_unique<la::Matrix>(symmetric.assemble());
-    }
-    else if (!matrix_.is_plain())
-      assembled_ = std::make_unique<la::Matrix>(matrix_.assemble());
-    const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
+    assemble(has_model);
     if (is_direct())
-      direct_ = std::make_unique<DirectSolver>(system);
+      assembled_->factorise();
     else if (is_filtered)
       build_filter();
     else
-      multigrid_ = make_cycle(system);
+      multigrid_ = make_cycle(system());
+  }
+
+  void CondensedSolver::assemble(const bool has_model)
+  {
+    is_assembled_ = is_direct() || !matrix_.is_plain();
+    if (!is_assembled_)
+    {
+      assembled_.reset();
+      return;
+    }
+    if (assembled_ == nullptr)
+      assembled_ = std::move(*space_.left);
+    if (assembled_ == nullptr)
+      assembled_ = std::make_unique<FactorisedMatrix>();
+    if (!has_model)
+    {
+      matrix_.assemble(assembled_->matrix);
+      return;
+    }
+    CondensedMatrix symmetric;
+    symmetric.reinit(*stiffness_, *rows_);
+    symmetric.set(built_);
+    symmetric.assemble(assembled_->matrix);
   }
 
   void CondensedSolver::build_filter()
   {
-    const la::Matrix &system = matrix_.is_plain() ? *stiffness_ : *assembled_;
     const auto relative = [&](const int i)
     { return built_.stiffness[i] / (rows_->weight(i) * row_stiffness_[i]); };
     std::vector<std::uint8_t> wanted(rows_->n_rows());
@@ -308,15 +327,16 @@ namespace abut::solve
     CondensedMatrix softened;
     softened.reinit(*stiffness_, *rows_);
     softened.set(soft);
-    softened_ = std::make_unique<la::Matrix>(softened.assemble());
-    multigrid_ = make_cycle(*softened_);
+    softened_ = std::make_unique<KeptMatrix>();
+    softened.assemble(*softened_);
+    multigrid_ = make_cycle(softened_->matrix());
     la::Vector count(rows_->owned(), rows_->communicator());
     rows_->add_counts(wanted.data(), count);
     matrix_.zero_pivots(count);
     std::vector<std::uint8_t> picked(la::n_owned(count));
     for (std::size_t i = 0; i < picked.size(); ++i)
       picked[i] = la::data(count)[i] > 0.;
-    filter_ = std::make_unique<ContactFilter>(system, *multigrid_, picked);
+    filter_ = std::make_unique<ContactFilter>(system(), *multigrid_, picked);
   }
 
   PreconditionerState CondensedSolver::state() const
@@ -504,7 +524,7 @@ namespace abut::solve
     for (int step = 0; step < most && after <= slow * before; ++step)
     {
       before = after;
-      direct_->solve(correction, residual);
+      assembled_->factors().solve(correction, residual);
       matrix_.zero_pivots(correction);
       x.add(1., correction);
       matrix_.vmult(residual, x);

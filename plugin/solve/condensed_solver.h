@@ -26,6 +26,8 @@ namespace abut::solve
         const SolverParameters &parameters,
         const PreconditionerKeeper &keeper = PreconditionerKeeper(1. / 2.));
 
+    ~CondensedSolver() override;
+
     void set_near_null_space(const NearNullSpace &space) override;
 
     void reinit(const Stiffness &stiffness, const PointOperator &rows,
@@ -74,6 +76,14 @@ namespace abut::solve
     void build();
     std::string method() const;
     bool has_stiff_springs() const;
+    /** Assemble the matrix of the preconditioner, if it is not the stiffness.
+     * Collective. */
+    void assemble(bool has_model);
+    /** The matrix of the preconditioner. */
+    const la::Matrix &system() const
+    {
+      return is_assembled_ ? assembled_->matrix.matrix() : *stiffness_;
+    }
     void build_filter();
     /** Bring the hierarchy to the present matrix, terms and pivots. */
     void build_geometric();
@@ -97,9 +107,11 @@ namespace abut::solve
     std::vector<double> row_stiffness_;
     MultigridChoice choice_;
 
-    /** The matrix that the preconditioner was built on. */
-    std::unique_ptr<la::Matrix> assembled_;
-    std::unique_ptr<la::Matrix> softened_; ///< and its multigrid, if filtered
+    /** The matrix that the preconditioner was built on, with factors of direct
+     * solvers, unless it is the stiffness. */
+    std::unique_ptr<FactorisedMatrix> assembled_;
+    bool is_assembled_ = false;
+    std::unique_ptr<KeptMatrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;
     /** [rows] by tangents: traction by the force along the normal; empty: no
      * springs have friction. */
@@ -111,7 +123,6 @@ namespace abut::solve
     std::unique_ptr<GeometricMultigrid> geometric_;
     bool has_new_matrix_ = true; ///< than the one in it
     std::unique_ptr<ContactFilter> filter_;
-    std::unique_ptr<DirectSolver> direct_;
   };
 } // namespace abut::solve
 

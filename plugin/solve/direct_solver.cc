@@ -31,6 +31,11 @@ namespace abut::solve
   DirectSolver::DirectSolver(const la::Matrix &matrix)
       : factors_(make_factors(matrix))
   {
+    factorise();
+  }
+
+  void DirectSolver::factorise()
+  {
     std::string failure;
     for (const int room : extra_room)
     {
@@ -39,6 +44,24 @@ namespace abut::solve
         break;
     }
     check(failure);
+  }
+
+  void DirectSolver::renew()
+  {
+    if (!factors_->refactorise().empty())
+      factorise();
+  }
+
+  void FactorisedMatrix::factorise()
+  {
+    if (factors_ != nullptr && pattern_ == matrix.pattern())
+    {
+      factors_->renew();
+      return;
+    }
+    factors_.reset();
+    factors_ = std::make_unique<DirectSolver>(matrix.matrix());
+    pattern_ = matrix.pattern();
   }
 
   void DirectSolver::solve(la::Vector &x, const la::Vector &b) const

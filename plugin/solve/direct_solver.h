@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_DIRECT_SOLVER_H
 
 #include "factors.h"
+#include "kept_matrix.h"
 
 #include <abut/dealii/linear_algebra.h>
 #include <abut/dealii/solver_parameters.h>
@@ -25,11 +26,37 @@ namespace abut::solve
      * solve() is called. Throws SolverFailure if it is singular. Collective. */
     explicit DirectSolver(const la::Matrix &matrix);
 
+    /** The same after the values of the matrix have changed, and not its
+     * pattern: its order is kept. Collective. */
+    void renew();
+
     /** Solve matrix x = b. Collective. */
     void solve(la::Vector &x, const la::Vector &b) const;
 
   private:
+    void factorise();
+
     std::unique_ptr<Factors> factors_;
+  };
+
+  /** A matrix that is made again and again, and its factors, whose order is
+   * kept as long as the pattern. */
+  class FactorisedMatrix
+  {
+  public:
+    KeptMatrix matrix;
+
+    /** Factorise its present values. Collective. */
+    void factorise();
+
+    const DirectSolver &factors() const
+    {
+      return *factors_;
+    }
+
+  private:
+    std::unique_ptr<DirectSolver> factors_;
+    unsigned int pattern_ = 0; ///< that they are of
   };
 } // namespace abut::solve
 

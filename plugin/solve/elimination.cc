@@ -249,9 +249,14 @@ namespace abut::solve
         is_pivot[c] = !z[c].empty();
       std::vector<int> result;
       for (int i = 0; i < t.n_rows; ++i)
-        if (std::any_of(t.column + t.start[i], t.column + t.start[i + 1],
-                        [&](const int c) { return is_pivot[c] != 0; }))
+      {
+        int k = t.start[i];
+        while (k < t.start[i + 1]
+               && (is_pivot[t.column[k]] == 0 || t.value[k] == 0.))
+          ++k;
+        if (k < t.start[i + 1])
           result.push_back(i);
+      }
       return result;
     }
   } // namespace
@@ -287,13 +292,15 @@ namespace abut::solve
     for (const int i : rows_of_pivots(t, z))
     {
       for (int k = t.start[i]; k < t.start[i + 1]; ++k)
-        sum.add(z[t.column[k]], t.value[k]);
+        if (t.value[k] != 0.)
+          sum.add(z[t.column[k]], t.value[k]);
       const SparseLine line = sum.release();
       if (!z[i].empty())
       {
         sum.add(line, 1.);
         for (int k = t.start[i]; k < t.start[i + 1]; ++k)
-          sum.add(t.column[k], t.value[k]);
+          if (t.value[k] != 0.)
+            sum.add(t.column[k], t.value[k]);
         h[i] = sum.release();
       }
       pass_on(i, line);
@@ -305,29 +312,5 @@ namespace abut::solve
           sum.add(line->second, value);
       pass_on(j, sum.release());
     }
-  }
-
-  la::Matrix elimination_terms(const la::Matrix &matrix,
-                               const PointOperator &rows,
-                               const Condensate &condensate)
-  {
-    struct Term
-    {
-      global_dof_index row;
-      std::vector<global_dof_index> columns;
-      std::vector<double> values;
-    };
-    std::vector<Term> terms;
-    for_each_elimination_term(
-        matrix, rows, condensate,
-        [&](const auto row, const auto &columns, const auto &values) {
-          terms.push_back({row, columns, values});
-        });
-    return la::assemble(rows.owned(), rows.ghosts(), rows.communicator(),
-                        [&](const auto &visit)
-                        {
-                          for (const Term &term : terms)
-                            visit(term.row, term.columns, term.values);
-                        });
   }
 } // namespace abut::solve

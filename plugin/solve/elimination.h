@@ -19,14 +19,11 @@ namespace abut::solve
    *     Z_qq = -1,  Z_qj = -B_ij / B_iq,    q the pivot of row i,
    * or with friction the maps of the condensate, and Y is Z but for friction;
    * so that the result is empty but for the neighbours of pivots and the
-   * unknowns that rows tie them to. On several ranks @p matrix needs an entry
-   * (i, j) wherever it has an entry (j, i). Collective. */
-  la::Matrix elimination_terms(const la::Matrix &matrix,
-                               const PointOperator &rows,
-                               const Condensate &condensate);
-
-  /** The same line by line, of which some may be parts of one row, or of rows
-   * of other ranks. Collective. */
+   * unknowns that rows tie them to; line by line, of which some may be parts of
+   * one row, or of rows of other ranks. On several ranks @p matrix needs an
+   * entry (i, j) wherever it has an entry (j, i). Entries of 0 have no part.
+   * Collective.
+   */
   void for_each_elimination_term(const la::Matrix &matrix,
                                  const PointOperator &rows,
                                  const Condensate &condensate,

@@ -20,6 +20,10 @@ namespace abut::solve
     /** Factorise; @p room is for MUMPS, beyond its estimate, in percent. */
     virtual std::string factorise(int room) = 0;
 
+    /** Factorise new values in the same pattern, in the order of the last
+     * factorise(). */
+    virtual std::string refactorise() = 0;
+
     /** Solve matrix x = b. */
     virtual std::string solve(la::Vector &x, const la::Vector &b) = 0;
   };
@@ -27,8 +31,8 @@ namespace abut::solve
   /** Whether MUMPS is built in. */
   bool has_mumps();
 
-  /** For @p matrix, which must exist and keep its values as long as the result
-   * is used. */
+  /** For @p matrix, which must exist as long as the result is used, with the
+   * same values but for refactorise(). */
   std::unique_ptr<Factors> make_factors(const la::Matrix &matrix);
 } // namespace abut::solve
 

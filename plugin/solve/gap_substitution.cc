@@ -187,7 +187,7 @@ namespace abut::solve
 
   GapSubstitution::GapSubstitution(const PointOperator &rows,
                                    const std::vector<GapLine> &lines)
-      : owned_(rows.owned()), communicator_(rows.communicator())
+      : communicator_(rows.communicator())
   {
     std::vector<Row> all;
     for (const GapLine &line : lines)
@@ -264,7 +264,7 @@ namespace abut::solve
     return result;
   }
 
-  la::Matrix GapSubstitution::product(const la::Matrix &matrix) const
+  MatrixLines GapSubstitution::product(const la::Matrix &matrix) const
   {
     const Lines lines = lines_of(matrix);
     const la::LocalRows rows = la::local_rows(matrix);
@@ -287,22 +287,29 @@ namespace abut::solve
       column[k] = index;
 
     SparseSum factor(place.size()), sum(number.size());
-    std::vector<std::pair<Index, Line>> result;
+    MatrixLines result;
+    std::vector<Index> columns;
+    std::vector<double> values;
     for (int i = 0; i < rows.n_rows; ++i)
     {
       for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        if (const auto *const line = of[rows.column[k]])
+        if (const auto *const line = of[rows.column[k]];
+            line != nullptr && rows.value[k] != 0.)
           factor.add(line->first, rows.value[k] * line->second);
       for (const auto &[l, each] : factor.release())
         for (std::size_t k = 0; k < place[l].size(); ++k)
           sum.add(place[l][k], each * lines.line[l][k].second);
-      Line line;
+      columns.clear();
+      values.clear();
       for (const auto &[k, value] : sum.release())
-        line.emplace_back(column[k], value);
-      if (!line.empty())
-        result.emplace_back(la::global_column(matrix, i), std::move(line));
+      {
+        columns.push_back(column[k]);
+        values.push_back(value);
+      }
+      if (!columns.empty())
+        result.add(la::global_column(matrix, i), columns, values);
     }
-    return assemble(owned_, communicator_, result);
+    return result;
   }
 
   void GapSubstitution::apply(la::Vector &v) const

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_GAP_SUBSTITUTION_H
 
 #include "gap_line.h"
+#include "matrix_lines.h"
 #include "point_operator.h"
 
 #include <map>
@@ -27,8 +28,8 @@ namespace abut::solve
     GapSubstitution(const PointOperator &rows,
                     const std::vector<GapLine> &lines);
 
-    /** K Z. Collective. */
-    la::Matrix product(const la::Matrix &matrix) const;
+    /** K Z, the rows of this rank. Entries of 0 have no part. Collective. */
+    MatrixLines product(const la::Matrix &matrix) const;
 
     /** Make u of v. Collective. */
     void apply(la::Vector &v) const;
@@ -46,7 +47,6 @@ namespace abut::solve
 
     Lines lines_of(const la::Matrix &matrix) const;
 
-    dealii::IndexSet owned_;
     MPI_Comm communicator_;
     Lines lines_; ///< by the unknowns of this rank
     std::unique_ptr<la::Matrix> z_;

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_NEAR_NULL_SPACE_H
 
 #include "common_array.h"
+#include "direct_solver.h"
 #include "mesh_hierarchy.h"
 
 #include <deal.II/base/point.h>
@@ -47,6 +48,10 @@ namespace abut::solve
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */
     std::shared_ptr<const MeshHierarchy> meshes;
+    /** Pattern and order of the last condensed solver on this mesh, for the
+     * next one, which takes them out; null inside: none. */
+    std::shared_ptr<std::unique_ptr<FactorisedMatrix>> left =
+        std::make_shared<std::unique_ptr<FactorisedMatrix>>();
 
     /** Room for the owned unknowns of a displacement. */
     void resize(const std::size_t n)

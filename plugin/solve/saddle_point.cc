@@ -332,10 +332,11 @@ namespace abut::solve
     CondensedMatrix leading;
     leading.reinit(*stiffness_, *rows_);
     leading.set(system.leading);
-    std::unique_ptr<la::Matrix> with_springs;
+    KeptMatrix with_springs;
     if (!leading.is_plain())
-      with_springs = std::make_unique<la::Matrix>(leading.assemble());
-    const la::Matrix &first = with_springs ? *with_springs : *stiffness_;
+      leading.assemble(with_springs);
+    const la::Matrix &first =
+        leading.is_plain() ? *stiffness_ : with_springs.matrix();
     const la::LocalRows stiffness = la::local_rows(first);
 
     std::vector<dealii::types::global_dof_index> columns;

@@ -218,7 +218,11 @@ namespace
       substitution.apply(u);
       way = u;
       way -= v;
-      substitution.product(share.matrix).vmult(forces, v);
+      const solve::MatrixLines product = substitution.product(share.matrix);
+      la::assemble(share.owned, dealii::IndexSet(share.owned.size()),
+                   communicator,
+                   [&](const auto &visit) { product.for_each(visit); })
+          .vmult(forces, v);
       share.matrix.vmult(expected, way);
       expected -= forces;
       Expect::near(expected.linfty_norm(), 0., 1e-13, "K Z");

@@ -49,6 +49,11 @@ namespace abut::solve
         return reason(status == 0 ? solver_->NumericFactorization() : status);
       }
 
+      std::string refactorise() override
+      {
+        return reason(solver_->NumericFactorization());
+      }
+
       std::string solve(la::Vector &x, const la::Vector &b) override
       {
         problem_.SetLHS(&x.trilinos_vector());

@@ -53,6 +53,11 @@ namespace abut::solve
             });
       }
 
+      std::string refactorise() override
+      {
+        return reason([&] { solver_->numericFactorization(); });
+      }
+
       std::string solve(la::Vector &x, const la::Vector &b) override
       {
         return reason(
