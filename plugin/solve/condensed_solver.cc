@@ -2,7 +2,7 @@
 #include "condensed_solver.h"
 
 #include "failures.h"
-#include "geometric_multigrid.h"
+#include "kept_parts.h"
 
 #include <abut/dealii/versions.h>
 
@@ -66,6 +66,44 @@ namespace abut::solve
     }
   } // namespace
 
+  namespace
+  {
+    /** Ends an iteration with factors of another matrix where it would take
+     * longer than to factorise: that costs as much as this many iterations. */
+    class NearControl : public dealii::SolverControl
+    {
+    public:
+      explicit NearControl(const double tolerance)
+          : dealii::SolverControl(most, tolerance, false, false)
+      {
+      }
+
+      State check(const unsigned int step, const double value) override
+      {
+        if (step == 0)
+          first_ = value;
+        const State state = dealii::SolverControl::check(step, value);
+        // Digits that are due by now, but for a few.
+        constexpr double slack = 100.;
+        const double due =
+            slack * first_
+            * std::pow(tolerance() / first_, step / double(most));
+        return state == iterate && step > 0 && value > due ? failure : state;
+      }
+
+    private:
+      static constexpr unsigned int most = 10;
+      double first_ = 0.;
+    };
+
+    /** Unknowns of all and of this rank. */
+    std::pair<dealii::types::global_dof_index, std::size_t>
+    system_size(const la::Matrix &matrix)
+    {
+      return {matrix.m(), matrix.local_size()};
+    }
+  } // namespace
+
   CondensedSolver::CondensedSolver(const SolverParameters &parameters,
                                    const PreconditionerKeeper &keeper)
       : parameters_(parameters), choice_(parameters), keeper_(keeper)
@@ -75,7 +113,9 @@ namespace abut::solve
   CondensedSolver::~CondensedSolver()
   {
     if (assembled_ != nullptr)
-      *space_.left = std::move(assembled_);
+      space_.kept->condensed = std::move(assembled_);
+    if (geometric_ != nullptr)
+      space_.kept->geometric = std::move(geometric_);
   }
 
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
@@ -241,6 +281,8 @@ namespace abut::solve
     std::vector<dealii::types::global_dof_index> touched;
     if (MPI::n_mpi_processes(communicator) > 1)
       touched = terms.unknowns();
+    if (geometric_ == nullptr)
+      geometric_ = std::move(space_.kept->geometric);
     if (MPI::logical_or(geometric_ == nullptr
                             || !geometric_->knows(*stiffness_, touched),
                         communicator))
@@ -254,7 +296,7 @@ namespace abut::solve
           *stiffness_, *space_.meshes, touched);
     }
     else if (has_new_matrix_)
-      geometric_->set_matrix(*stiffness_);
+      geometric_->renew_matrix(*stiffness_);
     has_new_matrix_ = false;
     geometric_->set_terms(terms);
     geometric_->set_constrained(held_by_pivots(), {});
@@ -288,6 +330,12 @@ namespace abut::solve
       multigrid_ = make_cycle(system());
   }
 
+  void CondensedSolver::take_kept()
+  {
+    if (assembled_ == nullptr)
+      assembled_ = std::move(space_.kept->condensed);
+  }
+
   void CondensedSolver::assemble(const bool has_model)
   {
     is_assembled_ = is_direct() || !matrix_.is_plain();
@@ -296,8 +344,7 @@ namespace abut::solve
       assembled_.reset();
       return;
     }
-    if (assembled_ == nullptr)
-      assembled_ = std::move(*space_.left);
+    take_kept();
     if (assembled_ == nullptr)
       assembled_ = std::make_unique<FactorisedMatrix>();
     if (!has_model)
@@ -363,7 +410,9 @@ namespace abut::solve
     matrix_.set(condensate);
     find_friction();
     keeper_.record_reuse();
-    if (is_outdated())
+    const bool is_old = is_outdated();
+    has_old_factors_ = is_old && is_direct() && has_near_factors();
+    if (is_old && !has_old_factors_)
     {
       build();
       report.n_setups = 1;
@@ -444,7 +493,9 @@ namespace abut::solve
 
   void CondensedSolver::cycle(la::Vector &dst, const la::Vector &src) const
   {
-    if (filter_)
+    if (is_direct())
+      assembled_->factors().solve(dst, src);
+    else if (filter_)
       filter_->vmult(dst, src);
     else if (geometric_)
       geometric_->vmult(dst, src);
@@ -511,14 +562,56 @@ namespace abut::solve
     iterate(rhs, parameters_.max_iterations, digits, tolerance, x, report);
   }
 
+  bool CondensedSolver::has_near_factors()
+  {
+    take_kept();
+    return assembled_ != nullptr && assembled_->has_factors()
+           && system_size(assembled_->matrix.matrix())
+                  == system_size(*stiffness_);
+  }
+
+  bool CondensedSolver::iterate_with_near_factors(const la::Vector &rhs,
+                                                  const double tolerance,
+                                                  la::Vector &x,
+                                                  LinearReport &report) const
+  {
+    // Newton's method shall hardly notice it.
+    constexpr double part = 1e-4, round_off = 1e-12;
+    NearControl control(std::min(
+        tolerance, std::max(part * tolerance, round_off * rhs.l2_norm())));
+    LinearReport count;
+    bool has_converged = true;
+    try
+    {
+      CondensateSolver::iterate(rhs, control, x, count);
+    }
+    catch (const dealii::SolverControl::NoConvergence &)
+    {
+      has_converged = false;
+    }
+    report.n_matvecs += count.n_matvecs;
+    return has_converged;
+  }
+
   void CondensedSolver::solve_directly(const la::Vector &rhs,
                                        const double tolerance, la::Vector &x,
-                                       LinearReport &report) const
+                                       LinearReport &report)
   {
     // Again with the residual: factors of stiff springs lose accuracy, those of
     // fields without stiffness, as pressures, more of it on several ranks.
     constexpr int most = 8;
     constexpr double slow = 0.5;
+    if (has_old_factors_)
+    {
+      if (iterate_with_near_factors(rhs, tolerance, x, report))
+        return;
+      const dealii::Timer timer;
+      x = 0.;
+      build();
+      has_old_factors_ = false;
+      ++report.n_setups;
+      report.setup_seconds += timer.wall_time();
+    }
     la::Vector residual(rhs), correction(rhs);
     double before = INFINITY, after = rhs.l2_norm();
     for (int step = 0; step < most && after <= slow * before; ++step)

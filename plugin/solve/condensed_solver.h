@@ -76,6 +76,9 @@ namespace abut::solve
     void build();
     std::string method() const;
     bool has_stiff_springs() const;
+    /** Take the matrix of the last solver on this mesh, if there is none yet.
+     */
+    void take_kept();
     /** Assemble the matrix of the preconditioner, if it is not the stiffness.
      * Collective. */
     void assemble(bool has_model);
@@ -98,8 +101,14 @@ namespace abut::solve
                  LinearReport &report);
     void solve_iteratively(const la::Vector &rhs, double tolerance,
                            la::Vector &x, LinearReport &report);
+    /** Whether there are factors of another matrix on this mesh. */
+    bool has_near_factors();
+    /** Iterate with them, as long as that is cheaper than to factorise; false:
+     * it is not, and @p x is as far as it came. Collective. */
+    bool iterate_with_near_factors(const la::Vector &rhs, double tolerance,
+                                   la::Vector &x, LinearReport &report) const;
     void solve_directly(const la::Vector &rhs, double tolerance, la::Vector &x,
-                        LinearReport &report) const;
+                        LinearReport &report);
 
     SolverParameters parameters_;
     NearNullSpace space_;
@@ -111,6 +120,7 @@ namespace abut::solve
      * solvers, unless it is the stiffness. */
     std::unique_ptr<FactorisedMatrix> assembled_;
     bool is_assembled_ = false;
+    bool has_old_factors_ = false;         ///< not of the present matrix
     std::unique_ptr<KeptMatrix> softened_; ///< and its multigrid, if filtered
     Condensate built_;
     /** [rows] by tangents: traction by the force along the normal; empty: no

@@ -54,14 +54,17 @@ namespace abut::solve
 
   void FactorisedMatrix::factorise()
   {
-    if (factors_ != nullptr && pattern_ == matrix.pattern())
+    // Without factors if the matrix fails.
+    std::unique_ptr<DirectSolver> factors = std::move(factors_);
+    if (factors != nullptr && pattern_ == matrix.pattern())
+      factors->renew();
+    else
     {
-      factors_->renew();
-      return;
+      factors.reset();
+      factors = std::make_unique<DirectSolver>(matrix.matrix());
+      pattern_ = matrix.pattern();
     }
-    factors_.reset();
-    factors_ = std::make_unique<DirectSolver>(matrix.matrix());
-    pattern_ = matrix.pattern();
+    factors_ = std::move(factors);
   }
 
   void DirectSolver::solve(la::Vector &x, const la::Vector &b) const

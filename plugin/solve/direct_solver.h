@@ -49,6 +49,11 @@ namespace abut::solve
     /** Factorise its present values. Collective. */
     void factorise();
 
+    bool has_factors() const
+    {
+      return factors_ != nullptr;
+    }
+
     const DirectSolver &factors() const
     {
       return *factors_;

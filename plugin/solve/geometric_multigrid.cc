@@ -2,6 +2,7 @@
 #include "geometric_multigrid.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace abut::solve
 {
@@ -21,6 +22,34 @@ namespace abut::solve
       MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE,
                     operation == ABUT_REDUCTION_SUM ? MPI_SUM : MPI_MAX,
                     static_cast<const SharedMeshes *>(user)->communicator());
+    }
+
+    /** A number of the entries of a matrix, another one if any differs but for
+     * one case in 2^64. Four sums, which do not wait for each other. */
+    std::uint64_t signature_of(const la::LocalRows &rows)
+    {
+      constexpr int n_sums = 4;
+      constexpr std::uint64_t factor = 0x9e3779b97f4a7c15ull;
+      std::uint64_t sum[n_sums] = {1, 2, 3, 4};
+      const auto mix = [&](const int s, const std::uint64_t word)
+      { sum[s] = ((sum[s] ^ word) * factor) ^ (sum[s] >> 29); };
+      const int n = rows.n_rows > 0 ? rows.start[rows.n_rows] : 0;
+      const auto mix_entry = [&](const int s, const int k)
+      {
+        std::uint64_t word = 0;
+        std::memcpy(&word, rows.value + k, sizeof(word));
+        mix(s, word + factor * static_cast<std::uint64_t>(rows.column[k]));
+      };
+      int k = 0;
+      for (; k + n_sums <= n; k += n_sums)
+        for (int s = 0; s < n_sums; ++s)
+          mix_entry(s, k + s);
+      for (; k < n; ++k)
+        mix_entry(0, k);
+      for (int s = 1; s < n_sums; ++s)
+        mix(0, sum[s]);
+      mix(0, static_cast<std::uint64_t>(n));
+      return sum[0];
     }
 
     /** Columns that other ranks own, in their order. */
@@ -119,7 +148,16 @@ namespace abut::solve
     const la::LocalRows rows = la::local_rows(matrix);
     const abut_multigrid_matrix copied = {sizeof(copied), rows.n_rows,
                                           rows.start, rows.column, rows.value};
+    signature_ = signature_of(rows);
     check(abut_multigrid_set_matrix(multigrid_.get(), &copied));
+  }
+
+  void GeometricMultigrid::renew_matrix(const la::Matrix &matrix)
+  {
+    const bool is_new = signature_of(la::local_rows(matrix)) != signature_;
+    if (dealii::Utilities::MPI::logical_or(is_new,
+                                           matrix.get_mpi_communicator()))
+      set_matrix(matrix);
   }
 
   void GeometricMultigrid::set_terms(LocalMatrix &terms)

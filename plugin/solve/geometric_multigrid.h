@@ -35,6 +35,10 @@ namespace abut::solve
      */
     void set_matrix(const la::Matrix &matrix);
 
+    /** The same unless it has the same entries as the last one; then what
+     * set_constrained() costs is what is near the changes. */
+    void renew_matrix(const la::Matrix &matrix);
+
     /** Set the terms added to the matrix in a few of its rows from the next
      * set_constrained() on, instead of the previous ones; any rank may have any
      * part of it. Closes it. */
@@ -65,8 +69,9 @@ namespace abut::solve
 
     /** Null on one rank; outlives the hierarchy. */
     std::unique_ptr<SharedMeshes> shared_;
-    std::vector<Index> ghosts_; ///< of the matrix, in their order
-    std::int32_t n_rows_ = 0;   ///< with those of copies
+    std::vector<Index> ghosts_;   ///< of the matrix, in their order
+    std::int32_t n_rows_ = 0;     ///< with those of copies
+    std::uint64_t signature_ = 0; ///< of the matrix
     std::unique_ptr<abut_context, Destroy> context_;
     std::unique_ptr<abut_multigrid, Destroy> multigrid_;
   };

@@ -2,6 +2,7 @@
 #include "masked_solver.h"
 
 #include "failures.h"
+#include "kept_parts.h"
 #include "multigrid.h"
 
 #include <deal.II/base/timer.h>
@@ -35,6 +36,12 @@ namespace abut::solve
   {
   }
 
+  MaskedSolver::~MaskedSolver()
+  {
+    if (geometric_ != nullptr)
+      space_.kept->geometric = std::move(geometric_);
+  }
+
   void MaskedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
@@ -45,7 +52,8 @@ namespace abut::solve
     set_stiffness(matrix);
     keeper_.forget();
     amg_.reset();
-    geometric_.reset();
+    if (geometric_ != nullptr)
+      space_.kept->geometric = std::move(geometric_);
     direct_.reset();
   }
 
@@ -143,8 +151,18 @@ namespace abut::solve
     keeper_.record_build();
     if (choice_.is_geometric())
     {
-      geometric_ =
-          std::make_unique<GeometricMultigrid>(*matrix_, *space_.meshes);
+      geometric_ = std::move(space_.kept->geometric);
+      if (dealii::Utilities::MPI::logical_or(
+              geometric_ == nullptr || !geometric_->knows(*matrix_, {}),
+              matrix_->get_mpi_communicator()))
+        geometric_ =
+            std::make_unique<GeometricMultigrid>(*matrix_, *space_.meshes);
+      else
+      {
+        LocalMatrix none;
+        geometric_->renew_matrix(*matrix_);
+        geometric_->set_terms(none);
+      }
       geometric_->set_constrained(mask.held, mask.diagonal);
       cut_ = mask.held;
       return;

@@ -136,6 +136,8 @@ namespace abut::solve
   public:
     explicit MaskedSolver(const SolverParameters &parameters = {});
 
+    ~MaskedSolver();
+
     /** Set the description of the unknowns, for the matrices that come. */
     void set_near_null_space(const NearNullSpace &space);
 

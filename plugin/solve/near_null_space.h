@@ -3,7 +3,6 @@
 #define ABUT_SOLVE_NEAR_NULL_SPACE_H
 
 #include "common_array.h"
-#include "direct_solver.h"
 #include "mesh_hierarchy.h"
 
 #include <deal.II/base/point.h>
@@ -21,6 +20,11 @@ namespace abut::solve
   {
     dealii::Tensor<1, 3> translation, rotation;
   };
+
+  struct KeptParts;
+
+  /** None. */
+  std::shared_ptr<KeptParts> make_kept_parts();
 
   /** Which unknown is what: the motions that a stiffness barely resists. By
    * default the field is scalar and in one piece. */
@@ -48,10 +52,8 @@ namespace abut::solve
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */
     std::shared_ptr<const MeshHierarchy> meshes;
-    /** Pattern and order of the last condensed solver on this mesh, for the
-     * next one, which takes them out; null inside: none. */
-    std::shared_ptr<std::unique_ptr<FactorisedMatrix>> left =
-        std::make_shared<std::unique_ptr<FactorisedMatrix>>();
+    /** Parts of solvers on this mesh, common to all copies; not null. */
+    std::shared_ptr<KeptParts> kept = make_kept_parts();
 
     /** Room for the owned unknowns of a displacement. */
     void resize(const std::size_t n)
