@@ -58,19 +58,29 @@ namespace abut::shim
                                        [&] { rows = la::local_rows(matrix); });
     Index bad = dealii::numbers::invalid_dof_index;
     Index lacking = dealii::numbers::invalid_dof_index;
+    int place = 0; // of the last row's diagonal entry, mostly this one's, too
     for (int r = rows.n_rows - 1; r >= 0; --r)
     {
-      double zero = 0.;
-      bool has_diagonal = false;
-      for (int k = rows.start[r]; k < rows.start[r + 1]; ++k)
-      {
-        zero += 0. * rows.value[k];
-        has_diagonal = has_diagonal || rows.column[k] == r;
-      }
-      if (zero != 0.)
+      const int begin = rows.start[r], end = rows.start[r + 1];
+      // Sums that do not wait for each other.
+      constexpr int n_sums = 4;
+      double zero[n_sums] = {};
+      int k = begin;
+      for (; k + n_sums <= end; k += n_sums)
+        for (int s = 0; s < n_sums; ++s)
+          zero[s] += 0. * rows.value[k + s];
+      for (; k < end; ++k)
+        zero[0] += 0. * rows.value[k];
+      if (zero[0] + zero[1] + zero[2] + zero[3] != 0.)
         bad = la::global_column(matrix, r);
-      if (!has_diagonal)
+      if (begin + place < end && rows.column[begin + place] == r)
+        continue;
+      const int *const at =
+          std::find(rows.column + begin, rows.column + end, r);
+      if (at == rows.column + end)
         lacking = la::global_column(matrix, r);
+      else
+        place = static_cast<int>(at - rows.column) - begin;
     }
     refuse_lacking(lacking, name, communicator);
     refuse_value(bad, name, communicator);

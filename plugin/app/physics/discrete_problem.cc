@@ -221,7 +221,9 @@ namespace abut::app
     la::Vector result = at_supports(forces_of(part));
     part.sadd(-1., u);
     hanging.set_zero(part);
-    result += forces_of(part);
+    // Supports at rest: nothing else would be added.
+    if (part.linfty_norm() > 0.)
+      result += forces_of(part);
     return result;
   }
 
