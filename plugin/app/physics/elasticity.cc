@@ -53,26 +53,32 @@ namespace abut::app
       const auto all_points = shim::cell_values(
           problem.mapping, problem.dof_handler, shim::mass_rule<dim>, flags,
           shim::ValuesOf::component);
-      const auto fields = shim::cell_values(
-          problem.mapping, problem.dof_handler, shim::mass_rule<dim>,
-          dealii::update_values | dealii::update_gradients);
-      const dealii::FEValuesExtractors::Vector all(0);
+      const shim::ByElement places_of(problem.dof_handler, nodal_places<dim>);
       CellState<dim> state;
       std::vector<global_dof_index> dofs;
+      std::vector<double> values;
       for (const auto &cell : problem.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
         {
-          dealii::FEValues<dim> &points = all_points.of(cell),
-                                &field = fields.of(cell);
-          state.value.resize(points.n_quadrature_points);
-          state.gradient.resize(points.n_quadrature_points);
+          dealii::FEValues<dim> &points = all_points.of(cell);
+          const NodalPlaces<dim> &places = places_of.of(cell);
           points.reinit(
               static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
                   cell));
-          field.reinit(cell);
-          field[all].get_function_values(displacement, state.value);
-          field[all].get_function_gradients(displacement, state.gradient);
           shim::get_dofs(cell, dofs);
+          values.resize(dofs.size());
+          displacement.extract_subvector_to(dofs.begin(), dofs.end(),
+                                            values.begin());
+          state.value.assign(points.n_quadrature_points, {});
+          state.gradient.assign(points.n_quadrature_points, {});
+          for (unsigned int q = 0; q < points.n_quadrature_points; ++q)
+            for (unsigned int i = 0; i < places.n_nodes(); ++i)
+              for (unsigned int c = 0; c < dim; ++c)
+              {
+                const double u = values[places(c, i)];
+                state.value[q][c] += u * points.shape_value(i, q);
+                state.gradient[q][c] += u * points.shape_grad(i, q);
+              }
           action(cell, points, state, dofs);
         }
     }

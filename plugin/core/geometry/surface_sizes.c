@@ -3,6 +3,7 @@
 #include "geometry/surface.h"
 
 #include <math.h>
+#include <string.h>
 
 double
 abut_surface_longest_side(abut_facet_kind kind, const double *nodes)
@@ -74,17 +75,20 @@ grow_box(abut_surface_sizes *z, const double *nodes, int32_t n,
     }
 }
 
+/* Measures of a facet, with a normal of 0 if it has none. */
 static void
-facet_normal(const abut_surface *s, int32_t f, double *normal)
+measure_facet(abut_facet_kind kind, const double *nodes, abut_facet_measures *m)
 {
-  double nodes[3 * ABUT_FACET_MAX_NODES];
-  abut_facet_measures m;
-  abut_surface_gather(s, f, nodes);
-  normal[0] = normal[1] = normal[2] = 0;
-  if (abut_facet_measure((abut_facet_kind)s->view.kinds[f], nodes, &m)
-      == ABUT_SUCCESS)
-    for (int d = 0; d < 3; ++d)
-      normal[d] = m.normal[d];
+  if (abut_facet_measure(kind, nodes, m) != ABUT_SUCCESS)
+    memset(m, 0, sizeof(*m));
+}
+
+static double
+cosine(const double *normals, int32_t f, int32_t g)
+{
+  const double *const a = normals + 3 * (int64_t)f, *const b = normals
+                                                               + 3 * (int64_t)g;
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 abut_status
@@ -92,28 +96,33 @@ abut_surface_features(abut_surface *surface, double angle, uint8_t *mask)
 {
   if (surface == NULL)
     return ABUT_INVALID_ARGUMENT;
-  const abut_surface *s = surface;
+  abut_surface *s = surface;
   if (mask == NULL || !(angle > 0 && angle <= 3.15))
     return abut_fail(s->context, ABUT_INVALID_ARGUMENT, "abut_surface_features",
                      "mask is NULL or angle is not in (0, pi]");
+  const abut_status status = abut_array_reserve(
+      s->context, &s->scratch, 0, 3 * (int64_t)s->view.n_facets + 1);
+  if (status != ABUT_SUCCESS)
+    return status;
+  double *const normals = s->scratch.data;
+  for (int32_t f = 0; f < s->view.n_facets; ++f)
+  {
+    double nodes[3 * ABUT_FACET_MAX_NODES];
+    abut_facet_measures m;
+    abut_surface_gather(s, f, nodes);
+    measure_facet((abut_facet_kind)s->view.kinds[f], nodes, &m);
+    memcpy(normals + 3 * (int64_t)f, m.normal, sizeof(m.normal));
+  }
   const double limit = cos(angle);
   for (int32_t f = 0; f < s->view.n_facets; ++f)
   {
-    double a[3], b[3];
     mask[f] = 0;
-    facet_normal(s, f, a);
     for (int k = 0; k < 4; ++k)
     {
       const int32_t g = s->view.neighbour[4 * (int64_t)f + k];
       if (g == ABUT_NEIGHBOUR_UNUSED)
         continue;
-      bool feature = g < 0;
-      if (!feature)
-      {
-        facet_normal(s, g, b);
-        feature = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < limit;
-      }
-      if (feature)
+      if (g < 0 || cosine(normals, f, g) < limit)
         mask[f] = (uint8_t)(mask[f] | 1 << k);
     }
   }
@@ -122,7 +131,7 @@ abut_surface_features(abut_surface *surface, double angle, uint8_t *mask)
 
 /* Sides without neighbour, and bent sides seen from their lower facet. */
 static void
-count_sides(const abut_surface *s, abut_surface_sizes *z)
+count_sides(const abut_surface *s, const double *normals, abut_surface_sizes *z)
 {
   const double limit = cos(s->feature_angle);
   for (int32_t f = 0; f < s->view.n_facets; ++f)
@@ -131,12 +140,7 @@ count_sides(const abut_surface *s, abut_surface_sizes *z)
       const int32_t g = s->view.neighbour[4 * (int64_t)f + k];
       if (g == ABUT_NEIGHBOUR_BORDER)
         ++z->n_border_sides;
-      if (g <= f)
-        continue;
-      double a[3], b[3];
-      facet_normal(s, f, a);
-      facet_normal(s, g, b);
-      if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < limit)
+      if (g > f && cosine(normals, f, g) < limit)
         ++z->n_feature_sides;
     }
 }
@@ -149,10 +153,10 @@ abut_surface_measure_sized(abut_surface *surface, abut_surface_sizes *sizes)
   abut_surface *s = surface;
   const int32_t n = s->view.n_facets;
   const abut_status status =
-      abut_array_reserve(s->context, &s->scratch, 0, (int64_t)n + 1);
+      abut_array_reserve(s->context, &s->scratch, 0, 4 * (int64_t)n + 1);
   if (status != ABUT_SUCCESS)
     return status;
-  double *size = s->scratch.data;
+  double *const size = s->scratch.data, *const normals = size + n;
   abut_surface_sizes z = {0};
   for (int d = 0; d < 3; ++d)
   {
@@ -165,8 +169,9 @@ abut_surface_measure_sized(abut_surface *surface, abut_surface_sizes *sizes)
     abut_facet_measures m;
     const abut_facet_kind kind = (abut_facet_kind)s->view.kinds[f];
     const int32_t n_nodes = abut_surface_gather(s, f, nodes);
-    if (abut_facet_measure(kind, nodes, &m) == ABUT_SUCCESS)
-      z.area += m.area;
+    measure_facet(kind, nodes, &m);
+    z.area += m.area;
+    memcpy(normals + 3 * (int64_t)f, m.normal, sizeof(m.normal));
     size[f] = abut_surface_longest_side(kind, nodes);
     grow_box(&z, nodes, n_nodes, s->view.dimension);
   }
@@ -176,7 +181,7 @@ abut_surface_measure_sized(abut_surface *surface, abut_surface_sizes *sizes)
     z.smallest = kth_smallest(size, n, 0);
     z.largest = kth_smallest(size, n, n - 1);
   }
-  count_sides(s, &z);
+  count_sides(s, normals, &z);
   return abut_copy_out(s->context, "abut_surface_measure", sizes, sizeof(z),
                        &z);
 }
