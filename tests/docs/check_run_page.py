@@ -23,11 +23,25 @@ end
 abut run mass.prm --quiet
 echo u 1.0000001 end
 echo after 0.02 s mesh 1
+echo penetration 5.4e-11 or 4.3e-9
+echo gap nan
 ```
 
 ```text {output}
 u 1 end
 after 3.10 s  mesh 1
+penetration 0 or 4.3e-9
+gap nan
+```
+
+WRONG
+```text {output}
+gap 1
+```
+
+WRONG
+```text {output}
+penetration 0 or 4.2e-9
 ```
 
 WRONG
@@ -110,7 +124,7 @@ def main():
     right = found == wanted and done.returncode == 1
     for text in NO_INTENT:
         right = right and result(text, abut).returncode == 1
-    return 0 if right and len(wanted) == 9 else 1
+    return 0 if right and len(wanted) == 11 else 1
 
 
 if __name__ == "__main__":

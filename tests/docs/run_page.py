@@ -10,7 +10,8 @@ The first line of each block of code gives its intent:
     ```sh {run}         commands; the exit code must be 0, or N with {run N}
     ```text {output}    what the commands before have printed: lines of it in their
                         order, words as they are, numbers to 1e-5 of their size,
-                        seconds ("0.02 s") of any size
+                        seconds ("0.02 s") of any size, and all numbers
+                        below 1e-9 equal
     ```prm {check}      a scene, read by `abut check`
     ```c {compile}      a file in C11, compiled with the public headers
     ```text {show}      for reading only
@@ -30,6 +31,7 @@ import tempfile
 import time
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+ROUND_OFF = 1e-9
 SECONDS = 240  # a block takes 5 s at most, a program 20 s; this is for a machine with other work
 LINE = re.compile(r"^(?P<fence>```+)(?P<info>.*)$|^<!-- expect (?P<expect>.*) -->$")
 INFO = re.compile(r"^(?P<language>\w+) \{(?P<intent>run|output|check|compile|show)"
@@ -70,12 +72,14 @@ def words(line):
 
 
 def same(printed, wanted):
-    """Whether two lines have the same words, numbers to 1e-5."""
+    """Whether two lines have the same words, numbers to 1e-5 or round-off."""
     pairs = list(zip(printed, wanted))
     for a, b in pairs:
         try:
-            if abs(float(a) - float(b)) > 1e-5 * abs(float(b)) + 1e-12:
-                return False
+            x, y = float(a), float(b)
+            if a != b and not (abs(x - y) <= 1e-5 * abs(y)
+                               or max(abs(x), abs(y)) <= ROUND_OFF):
+                return False  # also a number that is not finite
         except ValueError:
             if a != b:
                 return False
