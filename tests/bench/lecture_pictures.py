@@ -1,17 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The pictures of the lecture (doc/lecture): paths of four methods on the point mass,
-from runs of prm/point-mass.prm, and drawings of the contact search.
+from runs of prm/point-mass.prm, and drawings of the contact search. Ranges and labels
+are for the numbers of the shipped scene only; doc/lecture/methods.md has a script for
+other numbers.
 
     tests/bench/lecture_pictures.py build/release/abut [--folder doc/pictures]"""
+import sys
+
 import numpy
 from matplotlib import patches
 
 import pictures
 from pictures import bare, style
+from abut_tools.run_folder import RunFolder
 
 # The point mass: k u = f - p, gap 1 - u.
-STIFFNESS, FORCE, HEIGHT = 1.0, 3.0, 1.0
+SHIPPED = {"Masses/Stiffness": 1, "Masses/Force": 3, "Constraints/Initial gap": 1}
+STIFFNESS, FORCE, HEIGHT = (float(value) for value in SHIPPED.values())
 # Displacements that are drawn.
 RANGES = {"augmented lagrangian": (0.55, 2.2), "quadratic penalty": (0.55, 2.2),
           "barrier": (0.6, 1.3), "interior point": (0.99, 1.003)}
@@ -30,6 +36,11 @@ def path(abut, folder, method, settings):
     """Rows (u, p, penalty, barrier) of the outer steps of a run."""
     table = pictures.run(abut, "point-mass.prm", folder, "levels.csv",
                          f"Method/Enforcement={method}", *settings)
+    given = RunFolder(folder)
+    for name, value in SHIPPED.items():
+        if given.numbers(name) != [value]:
+            sys.exit(f"prm/point-mass.prm has {name} = {given.parameter(name)}: "
+                     f"these pictures are for {value} only.")
     return list(zip(*(table[name] for name in ("u", "p", "penalty",
                                                "barrier"))))
 
