@@ -96,7 +96,7 @@ namespace abut::shim
     }
 
     /** Values in the order of the names. */
-    std::vector<double> order(const Kind &kind, const char *const *names,
+    std::vector<double> order(const char *const *names,
                               const std::map<std::string, double> &given)
     {
       std::vector<double> values;
@@ -106,15 +106,14 @@ namespace abut::shim
       {
         const auto place = left.find(*names);
         if (place == left.end())
-          throw std::string(kind.parameters) + " does not give its parameter '"
-              + *names + "'";
+          throw "the law's parameter '" + std::string(*names) + "' is missing";
         values.push_back(place->second);
         left.erase(place);
         all += (all.empty() ? "" : ", ") + std::string(*names);
       }
       if (!left.empty())
-        throw std::string(kind.parameters) + " gives '" + left.begin()->first
-            + "', but its parameters are: " + (all.empty() ? "none" : all);
+        throw "the law has no parameter '" + left.begin()->first
+            + "'; it has: " + (all.empty() ? "none" : all);
       return values;
     }
 
@@ -125,6 +124,7 @@ namespace abut::shim
                                     const std::map<std::string, double> &given,
                                     const Sizes &sizes)
     {
+      std::string where = kind.file + (": " + file);
       try
       {
         if (file.empty())
@@ -133,8 +133,8 @@ namespace abut::shim
         const auto &user = open<Query>(file, kind);
         check_version(user.abi, sizes(user));
         check_table(user.law);
-        const Law result = {*user.law,
-                            order(kind, user.parameter_names, given)};
+        where = kind.parameters;
+        const Law result = {*user.law, order(user.parameter_names, given)};
         const char *const complaint = user.check != nullptr
                                           ? user.check(result.parameters.data())
                                           : nullptr;
@@ -144,8 +144,7 @@ namespace abut::shim
       }
       catch (const std::string &problem)
       {
-        throw dealii::ExcMessage(kind.file + (" = " + file) + ": " + problem
-                                 + ".");
+        throw dealii::ExcMessage(where + ": " + problem + ".");
       }
     }
   } // namespace

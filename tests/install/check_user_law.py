@@ -88,7 +88,7 @@ def refused(arguments, scratch, code, words, *settings):
 
 def check_parameters(arguments, scratch):
     bad = [
-        ("clearance: 1", ["soft_law.so", "'touch pressure'"]),
+        ("clearance: 1", ["Method/Law parameters", "'touch pressure' is missing"]),
         (f"{PARAMETERS}, colour: 3", ["'colour'", "touch pressure, clearance"]),
         ("touch pressure: -1, clearance: 1", ["must be above 0"]),
     ]

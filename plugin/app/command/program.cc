@@ -224,6 +224,7 @@ namespace abut::app
     const char *const of_results =
         "(levels|steps|newton|motion|masses|sweep|nodal|candidates"
         "|pair_\\d+(_closed_form)?)\\.csv|(fields|contact)\\.pvd"
+        "|(fields|contact)_\\d+(\\.\\d+)?\\.p?vtu"
         "|(primary|secondary)\\.vtu";
 
     void remove_files(const std::filesystem::path &folder, const char *pattern)

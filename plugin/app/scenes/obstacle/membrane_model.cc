@@ -360,12 +360,12 @@ namespace abut::app
       report.write_nodal_values();
     if (parameters.linear_solves > 0)
       report.compare_with_linear_solves(membrane);
-    if (run.results.empty() || !(parameters.fields || run.options.pictures))
+    if (run.results.empty())
       return;
-    if (!parameters.fields)
-      write_present();
     if (motion)
       motion->write_table();
+    if (run.options.pictures && !parameters.fields)
+      write_present();
   }
 
   template <int dim> void MembraneModel<dim>::report_check()

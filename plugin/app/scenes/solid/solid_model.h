@@ -132,6 +132,8 @@ namespace abut::app
         return;
       if (parameters.nodal_values)
         output.write_nodal_values();
+      if (motion)
+        motion->write_table();
       if (parameters.fields || run.options.pictures)
         output.finish();
     }

@@ -228,8 +228,6 @@ namespace abut::app
     SectionTimes::Scope scope(model.run.report.times, "output");
     write_obstacle_surfaces(model.run.u.linfty_norm());
     write_closed_forms();
-    if (model.motion)
-      model.motion->write_table();
   }
 
   template <int dim>
