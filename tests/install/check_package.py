@@ -88,14 +88,16 @@ def check_content(unpacked):
                  "lib/libabut_core.so.0.1", "lib/pkgconfig/abut_core.pc",
                  "lib/cmake/Abut/AbutConfig.cmake",
                  "include/abut/dealii/load_plugin.h",
-                 "share/abut/prm/step-41.prm", "share/doc/abut/copyright"):
+                 "share/abut/prm/step-41.prm", "share/doc/abut/copyright",
+                 "share/abut/tools/abut_tools/__main__.py"):
         require((unpacked / "usr" / name).exists(), f"{name} is missing")
     folders = {str(path.parent.relative_to(unpacked / "usr"))
                for path in unpacked.rglob("*") if not path.is_dir()}
     for folder in folders:
         require(folder in ("bin", "lib", "lib/cmake/Abut", "lib/pkgconfig")
                 or folder.startswith(("include/abut", "share/abut/prm",
-                                      "share/doc/abut")), folder)
+                                      "share/abut/tools", "share/doc/abut")),
+                folder)
     output = run(unpacked / "usr/bin/abut", "--version").stdout
     require(output.startswith("abut 0.1.0"), output)
 
