@@ -94,7 +94,9 @@ extern "C"
   X(NEWTON, 46, "Newton's method does not converge",                           \
     "smaller load steps; a tangent that is the derivative of the residual")    \
   X(PARTNERS, 47, "loaded points lose their facets or jump to others",         \
-    "mortar; rounded ends; smaller load steps")
+    "mortar; rounded ends; smaller load steps")                                \
+  X(FEW_POINTS, 48, "few points in contact",                                   \
+    "a finer mesh where the surfaces touch")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

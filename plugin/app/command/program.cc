@@ -21,6 +21,7 @@
 
 #include <unistd.h>
 
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -179,7 +180,8 @@ namespace abut::app
         return ExitCode::stopped;
       }
       report.set("converged", outcome == Outcome::converged);
-      report.check_expected();
+      if (outcome == Outcome::converged)
+        report.check_expected();
       report.finish();
       collective(communicator, [&] { report.write(options.output_folder); });
       if (options.restart != nullptr)
@@ -224,8 +226,9 @@ namespace abut::app
     const char *const of_results =
         "(levels|steps|newton|motion|masses|sweep|nodal|candidates"
         "|pair_\\d+(_closed_form)?)\\.csv|(fields|contact)\\.pvd"
-        "|(fields|contact)_\\d+(\\.\\d+)?\\.p?vtu"
-        "|(primary|secondary)\\.vtu";
+        "|(fields|contact)_\\d+(\\.\\d+)?\\.p?vtu|(primary|secondary)\\.vtu"
+        "|(bodies|tractions|convergence|motion|displacement|active-set|energy"
+        "|penalty|lagrangian|path|search|detection)\\.(svg|png)|report\\.html";
 
     void remove_files(const std::filesystem::path &folder, const char *pattern)
     {
@@ -437,6 +440,15 @@ namespace abut::app
       }
     }
 
+    /** The program as it was called. */
+    std::string own_name()
+    {
+      std::ifstream words("/proc/self/cmdline");
+      std::string name;
+      std::getline(words, name, '\0');
+      return name.empty() ? "abut" : name;
+    }
+
     ExitCode new_command(MPI_Comm communicator, const CommandLine &line)
     {
       on_root(communicator,
@@ -444,8 +456,8 @@ namespace abut::app
               {
                 const std::string file =
                     write_new_scene(line.topic, line.file).string();
-                std::cout << file << " written; solve it: abut run " << file
-                          << std::endl;
+                std::cout << file << " written; solve it: " << own_name()
+                          << " run " << file << std::endl;
               });
       return ExitCode::success;
     }

@@ -104,8 +104,23 @@ namespace abut::app
             if (parameter.path == old.path)
               same_name.push_back(parameter.path);
       std::string advice = did_you_mean(name, names);
+      const auto in_common = [&path](const std::string &other)
+      {
+        return std::mismatch(path.begin(),
+                             path.begin()
+                                 + static_cast<std::ptrdiff_t>(
+                                     std::min(path.size(), other.size())),
+                             other.begin())
+                   .first
+               - path.begin();
+      };
       if (advice.empty() && !same_name.empty())
-        advice = " There is a parameter '" + same_name.front() + "'.";
+        advice =
+            " There is a parameter '"
+            + *std::max_element(same_name.begin(), same_name.end(),
+                                [&](const std::string &a, const std::string &b)
+                                { return in_common(a) < in_common(b); })
+            + "'.";
       throw InputError(path, "there is no such parameter." + advice);
     }
 

@@ -30,7 +30,9 @@ namespace abut::app
         {ABUT_FAILURE_UNBALANCED,
          "Method/Barrier end = 1e-8, or lagrange; in a program of one's own, "
          "look at the sign of the residual"},
-        {ABUT_FAILURE_SINGULAR, "Refinement/Adaptive cycles; smooth data"}};
+        {ABUT_FAILURE_SINGULAR, "Refinement/Adaptive cycles; smooth data"},
+        {ABUT_FAILURE_FEW_POINTS,
+         "Refinement/Adaptive cycles, or a larger Refinement/Level"}};
     const auto entry = parameters.find(failure.failure);
     return entry != parameters.end() ? entry->second : failure.remedy;
   }

@@ -378,6 +378,35 @@ namespace abut::app
     report.examined(key + "turn", result.rotation, shim::visible_rotation,
                     model.allows_large_strain() ? no_limit : shim::useless,
                     ABUT_FAILURE_SLIDING);
+    examine_zone(pair, result);
+  }
+
+  /* A part of a surface in contact with few points on it: width and pressure
+   * of the contact are those of the mesh. A surface that is in contact as a
+   * whole may have few; so may bodies in motion when contact begins or ends. */
+  template <int dim>
+  void SolidReport<dim>::examine_zone(const ContactPair<dim> &pair,
+                                      const PairResult<dim> &result) const
+  {
+    // In quadrature points of a facet: three along each direction.
+    const bool at_nodes =
+        method.discretisation_of(pair.obstacle != nullptr, false)
+        != ABUT_DISCRETISATION_QUADRATURE_POINT;
+    const double few = std::pow(at_nodes ? 3. : 9., dim - 1);
+    if (pair.tied || model.has_inertia() || result.n_active == 0
+        || result.n_active == result.n_rows || result.n_active > few)
+      return;
+    report.warn(coded(
+        ABUT_FAILURE_FEW_POINTS,
+        result.name + ": "
+            + (result.n_active == 1
+                   ? std::string("only 1 point is")
+                   : "only " + std::to_string(result.n_active) + " points are")
+            + " in contact: pressure and size of the contact "
+              "zone are those of the mesh. Refine it there: "
+              "Refinement/Adaptive cycles, or a larger "
+              "Refinement/Level.",
+        {{"points", result.n_active}, {"limit", few}}));
   }
 
   /* Parts of the normal force, with that on prescribed nodes, which have no
