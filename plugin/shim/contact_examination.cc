@@ -93,9 +93,7 @@ namespace abut::shim
                      ? ", or for a singular corner, where the largest strain "
                        "grows with refinement and the mean does not"
                      : "")
-              + (is_error ? "; if such strains are meant, set Solid/Accept "
-                            "strains beyond linear theory."
-                          : "."),
+              + ".",
           {{"largest strain", seen.strain},
            {"mean strain", seen.mean_strain},
            {"warning limit", visible_strain},

@@ -18,7 +18,7 @@ namespace abut
                    none = ReportedOf::none;
     static const std::vector<PairMeasure<dim>> table = {
         {"rows", &R::n_rows, sum, all, "", "constraint rows"},
-        {"active", &R::n_active, sum, all, "", "rows in contact"},
+        {"active", &R::n_active, sum, all, "", "points in contact"},
         {"covered_area", &R::covered_area, sum, all, "area",
          "covered part of the secondary surface"},
         {"contact_area", &R::contact_area, sum, all, "area",

@@ -638,7 +638,7 @@ namespace abut::solve
   void UnsupportedBodies::fail_in_contact(const std::vector<Combination> &free,
                                           const double n_rows) const
   {
-    fail(free, n_rows, "rows in contact",
+    fail(free, n_rows, "points in contact",
          "tie it, or start with the bodies in contact: a smaller initial gap, "
          "or a prescribed displacement instead of a force");
   }

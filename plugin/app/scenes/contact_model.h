@@ -345,6 +345,12 @@ namespace abut::app
     /** A line of progress about a result. */
     virtual std::string line_of(const ContactResult &result) const = 0;
 
+    /** Levels by which a material is refined more than others. */
+    virtual int further_levels(dealii::types::material_id) const
+    {
+      return 0;
+    }
+
     /** Flag more cells, beside those with large errors. */
     virtual void flag_more_cells()
     {

@@ -656,6 +656,13 @@ namespace abut::app
           refine_and_coarsen_fixed_fraction(model.adaptive_mesh(),
                                             state.squared_estimate, fraction,
                                             levels.coarsen_fraction);
+    // No cell becomes larger than on the first mesh, which the user has chosen
+    // for the shape of bodies and for their data.
+    const int first = static_cast<int>(levels.first_level());
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->coarsen_flag_set()
+          && cell->level() <= first + model.further_levels(cell->material_id()))
+        cell->clear_coarsen_flag();
     model.flag_more_cells();
   }
 

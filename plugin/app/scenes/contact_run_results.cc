@@ -145,6 +145,9 @@ namespace abut::app
     for (ContactFinding &finding : findings)
     {
       finding.text = model.with_names(finding).text;
+      if (finding.failure == ABUT_FAILURE_LARGE_STRAIN && finding.is_error)
+        finding.text += " If such strains are meant, set Solid/Accept strains "
+                        "beyond linear theory.";
       if (model.has_inertia() && finding.failure == ABUT_FAILURE_FLOATING_BODY)
       {
         finding.text = coded(ABUT_FAILURE_FLOATING_BODY, inertia_vanishes).text;

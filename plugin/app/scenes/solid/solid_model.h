@@ -117,6 +117,10 @@ namespace abut::app
     std::string description() const override;
     std::string line_of(const ContactResult &result) const override;
     void flag_more_cells() override;
+    int further_levels(const dealii::types::material_id body) const override
+    {
+      return static_cast<int>(parameters.bodies[body].refinements);
+    }
 
     void write_fields() override;
 

@@ -591,7 +591,8 @@ namespace abut::app
       if (state.load_step == 1 && state.level <= parameters.refinement.level)
         energies.push_back(state.energy);
     }
-    if (!parameters.refinement.has_target())
+    if (!parameters.refinement.has_target()
+        && parameters.refinement.adaptive_cycles == 0)
       diagnose_order(report, energies);
     diagnose_condition(report, condition, penalty);
     report_locking();
