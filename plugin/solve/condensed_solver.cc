@@ -112,7 +112,7 @@ namespace abut::solve
 
   CondensedSolver::~CondensedSolver()
   {
-    if (assembled_ != nullptr)
+    if (assembled_ != nullptr && space_.reuses_factors)
       space_.kept->condensed = std::move(assembled_);
     if (geometric_ != nullptr)
       space_.kept->geometric = std::move(geometric_);
@@ -345,7 +345,7 @@ namespace abut::solve
       return;
     }
     take_kept();
-    if (assembled_ == nullptr)
+    if (assembled_ == nullptr || !space_.reuses_factors)
       assembled_ = std::make_unique<FactorisedMatrix>();
     if (!has_model)
     {
@@ -564,6 +564,8 @@ namespace abut::solve
 
   bool CondensedSolver::has_near_factors()
   {
+    if (!space_.reuses_factors)
+      return false;
     take_kept();
     return assembled_ != nullptr && assembled_->has_factors()
            && system_size(assembled_->matrix.matrix())
@@ -576,7 +578,7 @@ namespace abut::solve
                                                   LinearReport &report) const
   {
     // Newton's method shall hardly notice it.
-    constexpr double part = 1e-4, round_off = 1e-12;
+    constexpr double part = 1e-7, round_off = 1e-14;
     NearControl control(std::min(
         tolerance, std::max(part * tolerance, round_off * rhs.l2_norm())));
     LinearReport count;

@@ -54,6 +54,10 @@ namespace abut::solve
     std::shared_ptr<const MeshHierarchy> meshes;
     /** Parts of solvers on this mesh, common to all copies; not null. */
     std::shared_ptr<KeptParts> kept = make_kept_parts();
+    /** Whether factors and patterns of earlier systems may be used. Answers then
+     * depend on these systems, by round-off: not where a solve that is repeated
+     * must have the same digits. */
+    bool reuses_factors = false;
 
     /** Room for the owned unknowns of a displacement. */
     void resize(const std::size_t n)
