@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace abut::app
@@ -300,10 +301,12 @@ namespace abut::app
                            &last = records.back().bodies;
     const double force =
         std::max(std::abs(first.contact_force), std::abs(last.contact_force));
-    if (lost)
+    if (lost || !loses_motion(time.scheme, before, balance, force, way))
       return;
-    const Message text = text_of_lost_motion(time.scheme, before, balance,
-                                             force, way, first.time, last.time);
+    // How slow bodies can oscillate is not known here.
+    const Message text = text_of_lost_motion(
+        before, balance, force, std::numeric_limits<double>::infinity(),
+        first.time, last.time);
     lost = !text.empty();
     if (lost)
       run.report.warn(text);
@@ -342,9 +345,10 @@ namespace abut::app
   {
     const auto end = static_cast<std::size_t>(balance.fall_at);
     if (loses && !lost && end > 0)
-      run.report.warn(text_of_loss(time.scheme, balance,
-                                   records.at(end - 1).bodies.time,
-                                   records.at(end).bodies.time, words.stops));
+      run.report.warn(
+          text_of_loss(time.scheme, balance, records.at(end - 1).bodies.time,
+                       records.at(end).bodies.time,
+                       words.stops ? Touching::areas : Touching::nodes));
   }
 
   template <int dim> bool ModelMotion<dim>::keeps_energy() const

@@ -45,56 +45,91 @@ namespace abut::app
     }
   } // namespace
 
+  namespace
+  {
+    /** The rest of the text about lost energy: what it comes from. */
+    std::string cause_of_loss(const abut_time_scheme &scheme,
+                              const Touching what)
+    {
+      const std::string halve =
+          "Halve Time stepping/Step size until the loss is constant; the rest "
+          "is the loss ";
+      if (what == Touching::areas)
+        return halve
+               + "of impacts: areas in contact lose their velocity, without "
+                 "restitution, on any mesh.";
+      if (what == Touching::nodes)
+        return halve + "of the mesh at impacts, smaller on a finer one"
+               + (scheme.projects != 0
+                      ? "; or Time stepping/Scheme = hht with modified mass."
+                  : scheme.gamma > 0.5
+                      ? "; or Time stepping/Scheme = trapezoid with modified "
+                        "mass, which does not damp."
+                      : ".");
+      const std::string choose = "For a given restitution use Time "
+                                 "stepping/Scheme = velocity level with Time "
+                                 "stepping/Restitution.";
+      if (scheme.projects != 0)
+        return "Masses in contact lose their velocity: impacts have "
+               "restitution 0, with any Time stepping/Step size. "
+               + choose;
+      if (scheme.beta > 0. && scheme.keeps_springs == 0)
+        return "The velocity of a mass after an impact depends on where in a "
+               "step it touches, so the loss has no limit for small steps. "
+               + choose;
+      return "Use a smaller Time stepping/Step size. " + choose;
+    }
+  } // namespace
+
   Message text_of_loss(const abut_time_scheme &scheme,
                        const abut_time_balance &balance, const double begin,
-                       const double end, const bool stops)
+                       const double end, const Touching what)
   {
     const auto percent = [](const double part)
     { return short_number(100. * part, 3) + " %"; };
-    const std::string other =
-        scheme.projects != 0
-            ? "; or Time stepping/Scheme = hht with modified mass"
-        : scheme.gamma > 0.5
-            ? "; or Time stepping/Scheme = trapezoid with modified "
-              "mass, which does not damp"
-            : "";
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
         "the scheme has lost " + percent(balance.loss)
             + " of the initial energy, in addition to friction and damping: "
             + percent(balance.fall / balance.scale) + " in the step from time "
             + short_number(begin, 6) + " to " + short_number(end, 6)
-            + ", the largest part of one step. Halve Time stepping/Step size "
-              "until the loss is constant; the rest is the loss "
-            + (stops ? "of impacts: areas in contact lose their velocity, "
-                       "without restitution, on any mesh."
-                     : "of the mesh at impacts, smaller on a finer one" + other
-                           + "."),
+            + ", the largest part of one step. " + cause_of_loss(scheme, what),
         {{"lost part of the energy", balance.loss}});
   }
 
-  Message text_of_lost_motion(const abut_time_scheme &scheme,
-                              const abut_time_balance &before,
-                              const abut_time_balance &after,
-                              const double force, const double way,
-                              const double begin, const double end)
+  bool loses_motion(const abut_time_scheme &scheme,
+                    const abut_time_balance &before,
+                    const abut_time_balance &after, const double force,
+                    const double way)
   {
     // A load that is there at once loses half of its work where it is only
     // damped; and a scheme may take the contact's force at either end.
     constexpr double most = 0.6, ends = 2.;
     const double fall = before.last - after.last;
-    if (scheme.impulses != 0 || before.n == 0 || fall <= most * after.scale
-        || fall <= ends * force * way)
+    return scheme.impulses == 0 && before.n > 0 && fall > most * after.scale
+           && fall > ends * force * way;
+  }
+
+  Message text_of_lost_motion(const abut_time_balance &before,
+                              const abut_time_balance &after,
+                              const double force, const double period,
+                              const double begin, const double end)
+  {
+    const double part = (before.last - after.last) / after.scale;
+    const bool is_long = end - begin > period;
+    if (force > 0. && !is_long)
       return "";
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
         "inertia is negligible relative to the stiffness: the step from time "
             + short_number(begin, 6) + " to " + short_number(end, 6) + " loses "
-            + short_number(100. * fall / after.scale, 3)
-            + " % of the energy without contact as a cause. The step is longer "
-              "than the slowest oscillation. Use a smaller Time stepping/Step "
-              "size, a larger density or mass, or less stiffness.",
-        {{"lost part of the energy", fall / after.scale}});
+            + short_number(100. * part, 3) + " % of the energy"
+            + (force > 0. ? ". " : " without contact as a cause. ")
+            + (is_long ? "The step is longer than the slowest oscillation. "
+                       : "")
+            + "Use a smaller Time stepping/Step size, a larger density or "
+              "mass, or less stiffness.",
+        {{"lost part of the energy", part}});
   }
 
   void TimeParameters::declare(dealii::ParameterHandler &prm,

@@ -16,23 +16,35 @@ namespace abut::app
    * no answer. */
   constexpr double useless_gain = 0.1;
 
+  /** What touches in a motion. */
+  enum class Touching
+  {
+    nodes, ///< of a mesh: the finer it is, the less mass they have
+    areas, ///< have mass on any mesh, and lose their velocity
+    masses ///< points, lumped: there is no modified mass
+  };
+
   /** What to say of a balance that has lost energy, at the end of a motion.
-   * @param begin,end the step in which it fell most
-   * @param stops what touches has mass on any mesh, and loses its velocity */
+   * @param begin,end the step in which it fell most */
   Message text_of_loss(const abut_time_scheme &scheme,
                        const abut_time_balance &balance, double begin,
-                       double end, bool stops = false);
+                       double end, Touching what);
 
-  /** What to say of a step from time @p begin to @p end that has taken most of
-   * the energy although contact, by this largest @p force over this
-   * displacement @p way within the step, cannot: it is longer than the slowest
-   * oscillation, and there is no motion left. Empty of others, and of schemes
-   * with impulses.
+  /** Whether a step has taken most of the energy although contact, by this
+   * largest @p force over this displacement @p way within the step, seems not
+   * to be the cause. Never of schemes with impulses.
    * @param before,after the balance at the ends of the step */
-  Message text_of_lost_motion(const abut_time_scheme &scheme,
-                              const abut_time_balance &before,
+  bool loses_motion(const abut_time_scheme &scheme,
+                    const abut_time_balance &before,
+                    const abut_time_balance &after, double force, double way);
+
+  /** What to say of a step from time @p begin to @p end of which loses_motion()
+   * is true: there is no motion left. Empty where a contact @p force acts in
+   * it, unless the step is longer than the slowest oscillation, of this
+   * @p period. */
+  Message text_of_lost_motion(const abut_time_balance &before,
                               const abut_time_balance &after, double force,
-                              double way, double begin, double end);
+                              double period, double begin, double end);
 
   /** Section `Time stepping`: motion by a scheme of the core. */
   struct TimeParameters

@@ -54,6 +54,15 @@ namespace abut::app
     return 0.5 * std::inner_product(u.begin(), u.end(), ku.begin(), 0.);
   }
 
+  double Motion::depth() const
+  {
+    double result = 0;
+    for (const std::size_t mass : system.candidates)
+      if (plane.penalty > 0.)
+        result = std::max(result, -gap_of(u, mass));
+    return result;
+  }
+
   double Motion::contact() const
   {
     double sum = 0;
@@ -90,6 +99,33 @@ namespace abut::app
     for (const double value : force)
       largest = std::max(largest, std::abs(value));
     return mass > 0. ? 0.5 * (largest * dt) * (largest * dt) / mass : 0.;
+  }
+
+  /* Inverse iteration: each step divides what is not of the slowest mode by the
+   * squared ratio of frequencies. */
+  double Motion::slowest_period()
+  {
+    constexpr int n_steps = 10;
+    std::vector<double> x(system.size(), 1.), y, nothing;
+    double square = 0.;
+    for (int k = 0; k < n_steps; ++k)
+    {
+      const std::vector<double> mx = product(system.mass, x);
+      nothing.clear();
+      if (!solve(system.stiffness, mx, {}, y, nothing).empty())
+        return std::numeric_limits<double>::infinity();
+      const std::vector<double> my = product(system.mass, y);
+      square = std::inner_product(y.begin(), y.end(), my.begin(), 0.)
+               / std::inner_product(y.begin(), y.end(), mx.begin(), 0.);
+      const double size =
+          std::abs(*std::max_element(y.begin(), y.end(),
+                                     [](const double one, const double other) {
+                                       return std::abs(one) < std::abs(other);
+                                     }));
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = y[i] / size;
+    }
+    return 2. * std::acos(-1.) * std::sqrt(square);
   }
 
   double Motion::stable_step() const
@@ -496,7 +532,26 @@ namespace abut::app
     return "";
   }
 
+  /** Whether a force on a mass begins in the step from displacements @p old;
+   * what lies on the plane at the start touches already. */
+  bool Motion::begins_to_touch(const std::vector<double> &old,
+                               const std::vector<double> &old_force) const
+  {
+    constexpr double round_off = 1e-12;
+    const double least =
+        round_off * std::abs(*std::max_element(force.begin(), force.end()));
+    return std::any_of(
+        system.candidates.begin(), system.candidates.end(),
+        [&](const std::size_t mass)
+        {
+          const std::size_t i = height(mass);
+          return force[i] > least && old_force[i] <= least
+                 && (time > 0. || gap_of(old, mass) > round_off * length_scale);
+        });
+  }
+
   void Motion::finish(const double dt, const std::vector<double> &old,
+                      const std::vector<double> &old_force,
                       const std::vector<double> &before,
                       const std::vector<double> &after)
   {
@@ -505,18 +560,20 @@ namespace abut::app
       external_work += 0.5 * (before[i] + after[i]) * (u[i] - old[i]);
       impulse[i % dimension] += dt * force[i];
     }
+    if (scheme.impulses == 0 && begins_to_touch(old, old_force))
+      touch_times.push_back(time + dt);
   }
 
   Message Motion::step(const double dt, const std::vector<double> &before,
                        const std::vector<double> &after)
   {
-    const std::vector<double> old = u;
+    const std::vector<double> old = u, old_force = force;
     std::fill(force.begin(), force.end(), 0.);
     Message failure;
     try
     {
       failure = solve_step(dt, before, after);
-      finish(dt, old, before, after);
+      finish(dt, old, old_force, before, after);
     }
     catch (const std::range_error &)
     {

@@ -44,6 +44,7 @@ namespace abut::app
     double kinetic() const;
     double strain() const;
     double contact() const; /**< in penalty springs */
+    double depth() const;   /**< largest penetration of springs */
     double momentum(unsigned int direction) const;
 
     /** Sum of contact and friction on the masses in the last step. */
@@ -57,6 +58,10 @@ namespace abut::app
      * stiffness with closed contact; infinite for implicit ones. */
     double stable_step() const;
 
+    /** Period of the slowest oscillation without contact; infinite where a
+     * motion meets no stiffness. */
+    double slowest_period();
+
     std::vector<double> u, v, a; /**< [size] */
     std::vector<double> force;   /**< [size] mean of contact and friction on the
                                       masses in the last step */
@@ -64,7 +69,9 @@ namespace abut::app
     double dissipated = 0;       /**< by friction between impacts */
     double lost_in_impacts = 0;  /**< energy, of schemes with impulses */
     double external_work = 0;
-    std::vector<double> touch_times; /**< impacts of schemes with impulses */
+    /** Impacts; of schemes without impulses ends of steps in which a force
+     * begins. */
+    std::vector<double> touch_times;
     double time = 0;
 
   private:
@@ -122,7 +129,10 @@ namespace abut::app
     Message explicit_step(double dt, const std::vector<double> &place,
                           const std::vector<double> &before,
                           const std::vector<double> &after);
+    bool begins_to_touch(const std::vector<double> &old,
+                         const std::vector<double> &old_force) const;
     void finish(double dt, const std::vector<double> &old,
+                const std::vector<double> &old_force,
                 const std::vector<double> &before,
                 const std::vector<double> &after);
 

@@ -26,8 +26,13 @@ namespace abut::app
   } // namespace
 
   MotionRecord::MotionRecord(const abut_time_scheme &scheme_,
-                             const unsigned int dimension_)
-      : scheme(scheme_), dimension(dimension_), balance()
+                             const unsigned int dimension_, const bool is_bar_,
+                             const abut_time_mass mass_)
+      : scheme(scheme_),
+        dimension(dimension_),
+        is_bar(is_bar_),
+        mass(mass_),
+        balance()
   {
     balance.struct_size = sizeof(balance);
   }
@@ -42,8 +47,24 @@ namespace abut::app
     report.declare_columns(columns);
   }
 
-  bool MotionRecord::add(Report &report, const Motion &motion,
-                         const double time)
+  /** Look at the last step for a motion that only damping has ended.
+   * @param before the balance there, @param way the largest displacement */
+  void MotionRecord::look_for_loss(Report &report, Motion &motion,
+                                   const abut_time_balance &before,
+                                   const double way)
+  {
+    const Entry &last = entries.end()[-2], &now = entries.back();
+    const double force = std::max(std::abs(now.force), std::abs(last.force));
+    if (lost || !loses_motion(scheme, before, balance, force, way))
+      return;
+    const Message text = text_of_lost_motion(
+        before, balance, force, motion.slowest_period(), last.time, now.time);
+    lost = !text.empty();
+    if (lost)
+      report.warn(text);
+  }
+
+  bool MotionRecord::add(Report &report, Motion &motion, const double time)
   {
     const Entry now = {time,
                        motion.kinetic(),
@@ -63,17 +84,14 @@ namespace abut::app
     for (std::size_t k = 0; k < displacement.size(); ++k)
       way = std::max(way, std::abs(motion.u[k] - displacement[k]));
     displacement = motion.u;
-    if (!lost && entries.size() > 1)
-    {
-      const Entry &last = entries.end()[-2];
-      const Message text = text_of_lost_motion(
-          scheme, before, balance,
-          std::max(std::abs(now.force), std::abs(last.force)), way, last.time,
-          time);
-      lost = !text.empty();
-      if (lost)
-        report.warn(text);
-    }
+    if (entries.size() == 1)
+      first = displacement;
+    else
+      look_for_loss(report, motion, before, way);
+    for (std::size_t k = 0; k < first.size(); ++k)
+      moved = std::max(moved, std::abs(displacement[k] - first[k]));
+    depth = std::max(depth, motion.depth());
+    lost_in_impacts = motion.lost_in_impacts;
     std::map<std::string, double> row = {
         {"step", static_cast<double>(entries.size()) - 1.},
         {"time", time},
@@ -124,24 +142,57 @@ namespace abut::app
     return false;
   }
 
+  std::string MotionRecord::cure_of_gain() const
+  {
+    const std::string name = scheme.name, shorter = "a smaller Time "
+                                                    "stepping/Step size";
+    if (!is_bar && scheme.beta > 0. && largest_force > 0.)
+      return "the velocity of a mass after an impact depends on where in a "
+             "step "
+             "it touches. Use Time stepping/Scheme = velocity level with Time "
+             "stepping/Restitution";
+    if (!is_bar)
+      return "use " + shorter;
+    if (name != "hht" && name != "contact stabilised")
+      return "take hht or contact stabilised with Time stepping/Mass matrix = "
+             "auto, or "
+             + shorter;
+    return (mass == static_cast<abut_time_mass>(scheme.mass)
+                ? "use "
+                : "take Time stepping/Mass matrix = auto, or ")
+           + shorter;
+  }
+
+  /** Warn of springs of the plane that are too soft to be one. */
+  void MotionRecord::look_for_depth(Report &report) const
+  {
+    // What only lies on the plane has no other length to compare with.
+    constexpr double most = 0.1;
+    if (depth > most * moved && depth < moved)
+      report.warn(coded(
+          ABUT_FAILURE_PENALTY,
+          std::string(is_bar ? "the bar sinks" : "masses sink")
+              + " into the plane by " + short_number(depth, 3)
+              + ", and displacements are at most " + short_number(moved, 3)
+              + ": the springs of the plane are too soft. Use a larger "
+                "Contact/Penalty factor",
+          {{"depth", depth}}));
+  }
+
   bool MotionRecord::judge_end(Report &report) const
   {
-    const std::string name = scheme.name;
-    const bool is_bounded = name == "hht" || name == "contact stabilised";
+    look_for_depth(report);
     if (gains)
       report.warn(coded(
           ABUT_FAILURE_ENERGY_GAIN,
           "the energy has grown by " + short_number(100. * balance.gain, 3)
               + " % and exceeds the limit of the scheme since time "
-              + short_number(gain_time, 6) + ": take "
-              + (is_bounded ? "Time stepping/Mass matrix = auto"
-                            : "hht or contact stabilised with Time "
-                              "stepping/Mass matrix = auto")
-              + ", or a smaller Time stepping/Step size"));
+              + short_number(gain_time, 6) + ": " + cure_of_gain()));
     const auto fall = static_cast<std::size_t>(balance.fall_at);
     if (loses && !lost && fall > 0)
       report.warn(text_of_loss(scheme, balance, entries.at(fall - 1).time,
-                               entries.at(fall).time));
+                               entries.at(fall).time,
+                               is_bar ? Touching::nodes : Touching::masses));
     return !lost && (!gains || balance.gain <= useless_gain);
   }
 
@@ -167,7 +218,11 @@ namespace abut::app
     report.set("initial_energy", balance.first);
     report.set("energy_balance", balance.last);
     report.set("energy_gain", balance.gain);
-    report.set("energy_loss", balance.loss);
+    // What restitution takes is no fault of the scheme.
+    report.set("energy_loss",
+               balance.scale > 0. ? std::max(
+                   0., balance.loss - lost_in_impacts / balance.scale)
+                                  : balance.loss);
     report.set("momentum", momentum);
     report.set("contact_impulse", impulse);
     report.set("largest_contact_force", largest_force);

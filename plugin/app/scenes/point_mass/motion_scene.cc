@@ -155,8 +155,9 @@ namespace abut::app
           prm, "Penalty factor", "1", NumberPattern::positive(),
           parameter::advanced("stiffness of the row", "10"),
           "Stiffness of the springs that stand for the plane, for `central "
-          "difference` and `energy momentum`. Unit: `Masses/Spring`, for a bar "
-          "its stiffness divided by the length of an element.");
+          "difference` and `energy momentum`. Unit: `Masses/Spring`, for one "
+          "mass `Masses/Wall spring`, for a bar its stiffness divided by the "
+          "length of an element.");
       prm.leave_subsection();
     }
 
@@ -554,7 +555,7 @@ namespace abut::app
       const double limit = limit_of(motion);
       find_step(limit);
       describe(report, system);
-      MotionRecord record(time.scheme, row.dimension);
+      MotionRecord record(time.scheme, row.dimension, row.is_bar, mass_kind);
       record.declare_columns(report);
       report.set("stable_time_step", limit);
       if (time.end / n_steps() > limit)
