@@ -66,6 +66,8 @@ namespace abut
   template <int dim> void shim::ContactProblem<dim>::return_to_history()
   {
     abandon_iteration();
+    if (system.bodies)
+      solve::forget_factors(*system.bodies->kept);
     if (source == nullptr)
       start.return_to_history(nullptr, history);
     else
@@ -84,6 +86,8 @@ namespace abut
         i.host.vector("commit()", "displacement", given_displacement);
     i.record_present();
     i.history.commit();
+    if (i.system.bodies)
+      solve::forget_factors(*i.system.bodies->kept);
     i.scales.committed_load =
         std::max(i.scales.committed_load, i.scales.present_load);
     if (i.surfaces != nullptr && i.rows.are_found)

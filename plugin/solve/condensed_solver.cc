@@ -112,7 +112,8 @@ namespace abut::solve
 
   CondensedSolver::~CondensedSolver()
   {
-    if (assembled_ != nullptr && space_.reuses_factors)
+    if (assembled_ != nullptr && space_.reuses_factors
+        && space_.kept->step == step_)
       space_.kept->condensed = std::move(assembled_);
     if (geometric_ != nullptr)
       space_.kept->geometric = std::move(geometric_);
@@ -121,6 +122,7 @@ namespace abut::solve
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
+    step_ = space.kept->step;
     assembled_.reset();
     geometric_.reset();
   }
@@ -332,7 +334,7 @@ namespace abut::solve
 
   void CondensedSolver::take_kept()
   {
-    if (assembled_ == nullptr)
+    if (assembled_ == nullptr && space_.kept->step == step_)
       assembled_ = std::move(space_.kept->condensed);
   }
 

@@ -112,6 +112,7 @@ namespace abut::solve
 
     SolverParameters parameters_;
     NearNullSpace space_;
+    unsigned int step_ = 0; ///< of its kept parts
     const la::Matrix *stiffness_ = nullptr;
     std::vector<double> row_stiffness_;
     MultigridChoice choice_;

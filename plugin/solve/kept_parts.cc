@@ -7,4 +7,10 @@ namespace abut::solve
   {
     return std::make_shared<KeptParts>();
   }
+
+  void forget_factors(KeptParts &kept)
+  {
+    kept.condensed.reset();
+    ++kept.step;
+  }
 } // namespace abut::solve

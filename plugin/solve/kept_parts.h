@@ -13,6 +13,7 @@ namespace abut::solve
   struct KeptParts
   {
     std::unique_ptr<FactorisedMatrix> condensed;
+    unsigned int step = 0; ///< factors of earlier ones are forgotten
     std::unique_ptr<GeometricMultigrid> geometric;
   };
 } // namespace abut::solve

@@ -26,6 +26,10 @@ namespace abut::solve
   /** None. */
   std::shared_ptr<KeptParts> make_kept_parts();
 
+  /** At the end of a step: the next one has the same digits in a run that
+   * begins there. */
+  void forget_factors(KeptParts &kept);
+
   /** Which unknown is what: the motions that a stiffness barely resists. By
    * default the field is scalar and in one piece. */
   struct NearNullSpace
@@ -54,9 +58,9 @@ namespace abut::solve
     std::shared_ptr<const MeshHierarchy> meshes;
     /** Parts of solvers on this mesh, common to all copies; not null. */
     std::shared_ptr<KeptParts> kept = make_kept_parts();
-    /** Whether factors and patterns of earlier systems may be used. Answers then
-     * depend on these systems, by round-off: not where a solve that is repeated
-     * must have the same digits. */
+    /** Whether factors and patterns of earlier systems may be used. Answers
+     * then depend on these systems, by round-off: not where a solve that is
+     * repeated must have the same digits. */
     bool reuses_factors = false;
 
     /** Room for the owned unknowns of a displacement. */

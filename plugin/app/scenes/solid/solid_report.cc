@@ -378,23 +378,47 @@ namespace abut::app
     report.examined(key + "turn", result.rotation, shim::visible_rotation,
                     model.allows_large_strain() ? no_limit : shim::useless,
                     ABUT_FAILURE_SLIDING);
-    examine_zone(pair, result);
+    examine_zone(number, result);
   }
 
-  /* A part of a surface in contact with few points on it: width and pressure
-   * of the contact are those of the mesh. A surface that is in contact as a
-   * whole may have few; so may bodies in motion when contact begins or ends. */
+  /* Whether a surface of a pair is curved by its geometry: then contact begins
+   * in a point or a line, and grows with the force. Collective. */
   template <int dim>
-  void SolidReport<dim>::examine_zone(const ContactPair<dim> &pair,
+  bool SolidReport<dim>::is_curved(const unsigned int number) const
+  {
+    const PairParameters &parameters_of_pair = parameters.pairs[number - 1];
+    if (parameters_of_pair.obstacle > 0)
+    {
+      const std::string &kind =
+          parameters.obstacles[parameters_of_pair.obstacle - 1].kind;
+      if (kind != "plane" && kind != "box")
+        return true;
+    }
+    const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
+    const auto is_side = [&pair](const auto &face)
+    {
+      return face->manifold_id() != dealii::numbers::flat_manifold_id
+             && (pair.secondary.count(face->boundary_id()) > 0
+                 || pair.primary.count(face->boundary_id()) > 0);
+    };
+    bool found = false;
+    for (const auto &cell : model.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+          found = found || (cell->at_boundary(f) && is_side(cell->face(f)));
+    return MPI::logical_or(found, communicator);
+  }
+
+  /* Contact of curved surfaces with few points on it: width and pressure are
+   * those of the mesh. In motion contact begins and ends so. */
+  template <int dim>
+  void SolidReport<dim>::examine_zone(const unsigned int number,
                                       const PairResult<dim> &result) const
   {
-    // In quadrature points of a facet: three along each direction.
-    const bool at_nodes =
-        method.discretisation_of(pair.obstacle != nullptr, false)
-        != ABUT_DISCRETISATION_QUADRATURE_POINT;
-    const double few = std::pow(at_nodes ? 3. : 9., dim - 1);
-    if (pair.tied || model.has_inertia() || result.n_active == 0
-        || result.n_active == result.n_rows || result.n_active > few)
+    const double few = std::pow(3., dim - 1);
+    if (pairs.pairs().at(number - 1).tied || model.has_inertia()
+        || result.n_active == 0 || result.n_active == result.n_rows
+        || result.n_active > few || !is_curved(number))
       return;
     report.warn(coded(
         ABUT_FAILURE_FEW_POINTS,

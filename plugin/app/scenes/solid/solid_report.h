@@ -30,8 +30,8 @@ namespace abut::app
     void report_points() const;
     la::Vector reactions() const;
     void report_reactions() const;
-    void examine_zone(const ContactPair<dim> &pair,
-                      const PairResult<dim> &result) const;
+    bool is_curved(unsigned int number) const;
+    void examine_zone(unsigned int number, const PairResult<dim> &result) const;
     void examine_pair(unsigned int number, const PairResult<dim> &result,
                       double facet) const;
     void report_exceptions(const std::string &key,
