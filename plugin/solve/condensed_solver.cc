@@ -23,10 +23,7 @@ namespace abut::solve
      * soft in the multigrid method. */
     constexpr double stiff = 20.;
     constexpr double filtered = 5.;
-  } // namespace
 
-  namespace
-  {
     /** Make the blocks of springs of @p soft those of its diagonal. */
     void soften_blocks(const Condensate &stiff, Condensate &soft)
     {
@@ -42,10 +39,7 @@ namespace abut::solve
                   std::sqrt(wanted / (stiff.stiffness[i] * stiff.stiffness[j]));
           }
     }
-  } // namespace
 
-  namespace
-  {
     /** Whether the blocks of the point with row @p i first differ: a slip that
      * turns changes neither pivots nor diagonals. */
     bool differ_in_block(const Condensate &a, const Condensate &b, const int i)
@@ -64,10 +58,7 @@ namespace abut::solve
       return differ(a.spring, b.spring) || differ(a.trial, b.trial)
              || differ(a.test, b.test);
     }
-  } // namespace
 
-  namespace
-  {
     /** Ends an iteration with factors of another matrix where it would take
      * longer than to factorise: that costs as much as this many iterations. */
     class NearControl : public dealii::SolverControl

@@ -22,8 +22,7 @@ namespace abut::solve
    * unknowns that rows tie them to; line by line, of which some may be parts of
    * one row, or of rows of other ranks. On several ranks @p matrix needs an
    * entry (i, j) wherever it has an entry (j, i). Entries of 0 have no part.
-   * Collective.
-   */
+   * Collective. */
   void for_each_elimination_term(const la::Matrix &matrix,
                                  const PointOperator &rows,
                                  const Condensate &condensate,

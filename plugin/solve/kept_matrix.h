@@ -25,11 +25,6 @@ namespace abut::solve
      */
     void add(const MatrixLines &lines);
 
-    bool empty() const
-    {
-      return matrix_ == nullptr;
-    }
-
     /** The sum. */
     const la::Matrix &matrix() const
     {

@@ -46,6 +46,12 @@ wrong(POINT + "subsection Massses\nset Force = 1\nend\n", "wrong.prm:3",
       "section 'Massses'", "'Masses'")
 wrong(POINT + "subsection Masses\n# a comment\n\nset Stifness = 1\nend\n",
       "wrong.prm:5", "Masses/Stifness", "'Stiffness'")
+# First words that are not near are no suggestion ('Mass').
+result = p.call("run", p.write(
+    "wrong.prm", "set Scene = solid\nset Dimension = 2\nsubsection Solid\n"
+    "set Obstacles = 1\nend\nsubsection Obstacle 1\nset Half length = 3\nend\n"))
+p.expect_error(result, "wrong.prm:7", "there is no such parameter")
+p.expect("Did you mean" not in result.stderr, result.stderr)
 wrong(POINT + "set Penalty = 5\n", "wrong.prm:2", "'Method/Penalty factor'")
 
 # Values.

@@ -68,11 +68,12 @@ namespace abut
       const std::string lower = edits::in_lower_case(candidate);
       std::size_t distance = edits::edit_distance(wanted, lower);
       // "lagrang multiplier" for "lagrange": the first words are near.
-      if (wanted.find(' ') != std::string::npos)
-        distance = std::min(
-            distance, 1
-                          + edits::edit_distance(edits::first_word(wanted),
-                                                 edits::first_word(lower)));
+      const std::string first = edits::first_word(wanted);
+      if (first.size() < wanted.size())
+        if (const std::size_t each =
+                edits::edit_distance(first, edits::first_word(lower));
+            3 * each <= first.size())
+          distance = std::min(distance, 1 + each);
       // "interior" for "interior point": one begins with the other.
       if (wanted.size() > 2
           && (lower.compare(0, wanted.size(), wanted) == 0

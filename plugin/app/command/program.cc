@@ -328,7 +328,8 @@ namespace abut::app
       }
     }
 
-    /** What a check leaves for its sketch, on rank 0, until it is drawn. */
+    /** Temporary folder with the problem of a check, of which its sketch is
+     * drawn. On rank 0. */
     class SketchFolder
     {
     public:
@@ -380,7 +381,8 @@ namespace abut::app
                    if (!line.sketch.empty())
                      sketch.emplace(loaded, line.sketch);
                  });
-      // Only rank 0 writes.
+      // A scene writes its outline where there is a folder, which all ranks
+      // must agree on; rank 0 alone writes into it.
       options.output_folder = sketch ? sketch->folder.string() : line.sketch;
       Report report(options.communicator, verbosity(line));
       loaded.describe(report);

@@ -3,6 +3,7 @@
 #include "dealii_message.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 namespace abut::app
@@ -23,5 +24,20 @@ namespace abut::app
     for (std::string word; words >> word;)
       result += (result.empty() ? "" : " ") + word;
     return result;
+  }
+
+  bool says_not_implemented(const std::string &message)
+  {
+    return message.find("not implemented") != std::string::npos;
+  }
+
+  std::size_t wanted_arguments(const std::string &message)
+  {
+    const std::string before = "Tuple of <";
+    const std::size_t at = message.find(before);
+    return at == std::string::npos
+               ? 0
+               : std::strtoul(message.c_str() + at + before.size(), nullptr,
+                              10);
   }
 } // namespace abut::app

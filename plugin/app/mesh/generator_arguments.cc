@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "generator_arguments.h"
 
+#include "app/input/dealii_message.h"
 #include "app/input/expression.h"
 #include "app/input/number_text.h"
 
-#include <cstdlib>
 #include <map>
 
 namespace abut::app
@@ -59,17 +59,6 @@ namespace abut::app
           {"moebius", "n_cells : n_rotations : R : r"}};
       return names;
     }
-
-    /** How many elements deal.II's tuple has; 0 where it does not say. */
-    std::size_t wanted_number(const std::string &complaint)
-    {
-      const std::string before = "Tuple of <";
-      const std::size_t at = complaint.find(before);
-      return at == std::string::npos
-                 ? 0
-                 : std::strtoul(complaint.c_str() + at + before.size(), nullptr,
-                                10);
-    }
   } // namespace
 
   const std::vector<std::string> &generators()
@@ -93,7 +82,7 @@ namespace abut::app
     const std::string names =
         entry == argument_names().end() ? "" : entry->second;
     const std::size_t named = split_list(names, ':').size();
-    const std::size_t wanted = wanted_number(complaint);
+    const std::size_t wanted = wanted_arguments(complaint);
     if (wanted == 0)
       return complaint;
     std::string text = "it needs " + std::to_string(wanted);

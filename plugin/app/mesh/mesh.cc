@@ -74,8 +74,7 @@ namespace abut::app
               parameters.section + "/Generator",
               "deal.II has no generator '" + parameters.generator + "'."
                   + did_you_mean(parameters.generator, generators()));
-        // deal.II has an ExcMessage for it, and no type.
-        if (message.find("not implemented") != std::string::npos)
+        if (says_not_implemented(message))
           throw InputError(parameters.section + "/Generator",
                            "the generator '" + parameters.generator
                                + "' does not exist" + in_dimension + ".");

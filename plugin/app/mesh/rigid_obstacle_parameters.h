@@ -44,6 +44,13 @@ namespace abut::app
     /** Whether the kind has a parameter of its own with this name. */
     bool has(const std::string &name) const;
 
+    /** Whether contact with it begins in a point or a line and grows: not with
+     * flat sides. */
+    bool is_curved() const
+    {
+      return kind != "plane" && kind != "box";
+    }
+
     /** Full name of a parameter, for messages. */
     std::string parameter(const std::string &name) const
     {

@@ -43,10 +43,7 @@ namespace abut::app
                                "section Time stepping.");
       return scheme;
     }
-  } // namespace
 
-  namespace
-  {
     /** The rest of the text about lost energy: what it comes from. */
     std::string cause_of_loss(const abut_time_scheme &scheme,
                               const Touching what)

@@ -13,6 +13,17 @@
 
 namespace abut::app
 {
+  namespace
+  {
+    double largest_magnitude(const std::vector<double> &values)
+    {
+      double result = 0.;
+      for (const double value : values)
+        result = std::max(result, std::abs(value));
+      return result;
+    }
+  } // namespace
+
   Motion::Motion(const MassSystem &system_, const Plane &plane_,
                  const abut_time_scheme &scheme_)
       : system(system_),
@@ -57,8 +68,8 @@ namespace abut::app
   double Motion::depth() const
   {
     double result = 0;
-    for (const std::size_t mass : system.candidates)
-      if (plane.penalty > 0.)
+    if (plane.penalty > 0.)
+      for (const std::size_t mass : system.candidates)
         result = std::max(result, -gap_of(u, mass));
     return result;
   }
@@ -117,11 +128,7 @@ namespace abut::app
       const std::vector<double> my = product(system.mass, y);
       square = std::inner_product(y.begin(), y.end(), my.begin(), 0.)
                / std::inner_product(y.begin(), y.end(), mx.begin(), 0.);
-      const double size =
-          std::abs(*std::max_element(y.begin(), y.end(),
-                                     [](const double one, const double other) {
-                                       return std::abs(one) < std::abs(other);
-                                     }));
+      const double size = largest_magnitude(y);
       for (std::size_t i = 0; i < x.size(); ++i)
         x[i] = y[i] / size;
     }
@@ -285,15 +292,8 @@ namespace abut::app
 
   Message Motion::why_unsolved(const abut_status status) const
   {
-    const auto largest = [](const std::vector<double> &matrix)
-    {
-      double result = 0.;
-      for (const double value : matrix)
-        result = std::max(result, std::abs(value));
-      return result;
-    };
-    const double mass = largest(system.mass),
-                 stiffness = largest(system.stiffness);
+    const double mass = largest_magnitude(system.mass),
+                 stiffness = largest_magnitude(system.stiffness);
     const std::string sizes = "masses of " + short_number(mass, 3)
                               + " and springs of " + short_number(stiffness, 3);
     // Squares of these leave the range of numbers, and none is an answer.
@@ -532,14 +532,11 @@ namespace abut::app
     return "";
   }
 
-  /** Whether a force on a mass begins in the step from displacements @p old;
-   * what lies on the plane at the start touches already. */
   bool Motion::begins_to_touch(const std::vector<double> &old,
                                const std::vector<double> &old_force) const
   {
     constexpr double round_off = 1e-12;
-    const double least =
-        round_off * std::abs(*std::max_element(force.begin(), force.end()));
+    const double least = round_off * largest_magnitude(force);
     return std::any_of(
         system.candidates.begin(), system.candidates.end(),
         [&](const std::size_t mass)

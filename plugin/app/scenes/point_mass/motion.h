@@ -129,6 +129,9 @@ namespace abut::app
     Message explicit_step(double dt, const std::vector<double> &place,
                           const std::vector<double> &before,
                           const std::vector<double> &after);
+    /** Whether a force on a mass begins in the step from displacements @p old
+     * and forces @p old_force; what lies on the plane at the start touches
+     * already. */
     bool begins_to_touch(const std::vector<double> &old,
                          const std::vector<double> &old_force) const;
     void finish(double dt, const std::vector<double> &old,

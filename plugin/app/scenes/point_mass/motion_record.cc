@@ -144,13 +144,12 @@ namespace abut::app
 
   std::string MotionRecord::cure_of_gain() const
   {
-    const std::string name = scheme.name, shorter = "a smaller Time "
-                                                    "stepping/Step size";
+    const std::string name = scheme.name,
+                      shorter = "a smaller Time stepping/Step size";
     if (!is_bar && scheme.beta > 0. && largest_force > 0.)
       return "the velocity of a mass after an impact depends on where in a "
-             "step "
-             "it touches. Use Time stepping/Scheme = velocity level with Time "
-             "stepping/Restitution";
+             "step it touches. Use Time stepping/Scheme = velocity level with "
+             "Time stepping/Restitution";
     if (!is_bar)
       return "use " + shorter;
     if (name != "hht" && name != "contact stabilised")

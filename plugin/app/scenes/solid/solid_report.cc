@@ -386,14 +386,9 @@ namespace abut::app
   template <int dim>
   bool SolidReport<dim>::is_curved(const unsigned int number) const
   {
-    const PairParameters &parameters_of_pair = parameters.pairs[number - 1];
-    if (parameters_of_pair.obstacle > 0)
-    {
-      const std::string &kind =
-          parameters.obstacles[parameters_of_pair.obstacle - 1].kind;
-      if (kind != "plane" && kind != "box")
-        return true;
-    }
+    const unsigned int obstacle = parameters.pairs[number - 1].obstacle;
+    if (obstacle > 0 && parameters.obstacles[obstacle - 1].is_curved())
+      return true;
     const ContactPair<dim> &pair = pairs.pairs().at(number - 1);
     const auto is_side = [&pair](const auto &face)
     {
