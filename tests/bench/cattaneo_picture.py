@@ -8,39 +8,30 @@ of that run. Needs Matplotlib.
 
     tests/bench/cattaneo_picture.py build/release/abut picture.svg
 """
-import csv
-import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import pictures
 
-SCENE = (pathlib.Path(__file__).resolve().parents[2]
-         / "prm/cattaneo-cylinders.prm")
 MU, RADIUS, MODULUS = 0.2, 4., 200. / (2. * (1. - 0.3 ** 2))
 PULL, PRESS = 0.03, 0.184
 
 
 def run(abut, folder, back):
-    """Forces along normal and surface, and nodes in contact."""
+    """Forces along normal and surface, place and friction of nodes in contact."""
     steps = 2 if back is None else 3
     way = f"t > 2 ? {PULL} - {back or 0}*(t - 2) : {PULL}*(t - 1)"
-    subprocess.run(
-        [abut, "run", SCENE, "--output", folder, "--quiet",
-         "--set", "Output/Pictures=false",
-         "--set", f"Time stepping/Number of steps={steps}",
-         "--set", f"Time stepping/End time={steps}",
-         "--set", f"Body 2/Prescribed displacement=1: (t > 1 ? ({way}) : 0), "
-         f"(t < 1 ? -{PRESS}*t : -{PRESS})"], check=True)
-    summary = json.loads((folder / "summary.json").read_text())
-    with open(folder / "pair_1.csv") as file:
-        nodes = [(float(row["x"]), float(row["friction"]))
-                 for row in csv.DictReader(file) if float(row["status"]) > 0]
-    return (summary["pair_1_normal_force"], summary["pair_1_friction"][0],
-            nodes)
+    done = pictures.run(
+        abut, "cattaneo-cylinders.prm", folder, f"Time stepping/Number of steps={steps}",
+        f"Time stepping/End time={steps}",
+        f"Body 2/Prescribed displacement=1: (t > 1 ? ({way}) : 0), "
+        f"(t < 1 ? -{PRESS}*t : -{PRESS})")
+    table = done.table("pair_1.csv")
+    closed = table["status"] > 0
+    return (done.summary["pair_1_normal_force"], done.summary["pair_1_friction"][0],
+            table["x"][closed], table["friction"][closed])
 
 
 def first_load(x, normal, force, mu):
@@ -68,18 +59,17 @@ def main():
         for i, (label, back) in enumerate((("$Q = Q_1$", None),
                                            ("$Q = 0$", 0.0295),
                                            ("$Q = -Q_1$", 2. * PULL))):
-            normal, force, nodes = run(sys.argv[1], folder / "out", back)
+            normal, force, places, tractions = run(sys.argv[1], folder / "out", back)
             first = first if first is not None else force
             half = math.sqrt(4. * normal * RADIUS / (math.pi * MODULUS))
             bound = MU * 2. * normal / (math.pi * half)
-            edge = 1.05 * max(abs(x) for x, _ in nodes)
+            edge = 1.05 * max(abs(places))
             curve = [edge * k / 500. for k in range(-500, 501)]
             axes.plot([x / half for x in curve],
                       [closed_form(x, normal, first, force) / bound
                        for x in curve], color=style.COLOURS[i],
                       linewidth=0.9)
-            axes.plot([x / half for x, _ in nodes],
-                      [q / bound for _, q in nodes], style.MARKERS[i],
+            axes.plot(places / half, tractions / bound, style.MARKERS[i],
                       color=style.COLOURS[i], fillstyle="none", markersize=3,
                       label=label)
     axes.plot([], [], color=style.GREY, linewidth=0.9,

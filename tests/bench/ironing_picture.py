@@ -9,28 +9,21 @@ Matplotlib.
 
     tests/bench/ironing_picture.py build/release/abut picture.svg 1 2
 """
-import csv
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 
 import pictures
 
-SCENE = pathlib.Path(__file__).resolve().parents[2] / "prm/ironing.prm"
 PUBLISHED = {"V": (337., 421.), "H": (102., 189.)}
 
 
 def forces(abut, folder, level):
     """Time, vertical and horizontal force on the die, by load step."""
-    subprocess.run(
-        [abut, "run", SCENE, "--output", folder, "--quiet",
-         "--set", f"Refinement/Level={level}", "--set", "Output/Fields=false",
-         "--set", "Output/Pictures=false"], check=True)
-    with open(folder / "levels.csv", encoding="utf-8") as file:
-        return [[float(row["time"]), -float(row["pair_1_force_y"]),
-                 float(row["pair_1_force_x"])] for row in csv.DictReader(file)]
+    table = pictures.run(abut, "ironing.prm", folder, f"Refinement/Level={level}",
+                         "Output/Fields=false").table("levels.csv")
+    return list(zip(table["time"], -table["pair_1_force_y"], table["pair_1_force_x"]))
 
 
 def main():

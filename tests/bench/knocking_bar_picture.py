@@ -8,16 +8,12 @@ the exact 1/8, and prints the table of doc/develop/dynamics.md. Needs Matplotlib
 
     tests/bench/knocking_bar_picture.py build/release/abut picture.svg
 """
-import csv
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import pictures
 
-SCENE = (pathlib.Path(__file__).resolve().parents[2]
-         / "prm/dynamics-periodic-bar.prm")
 PERIOD, PERIODS, EXACT = 3., 100, 1. / 8.
 # Explicit schemes are below their limit with half of the others' step.
 SCHEMES = {"hht": 0.02, "trapezoid": 0.02, "midpoint": 0.02,
@@ -29,19 +25,13 @@ SCHEMES = {"hht": 0.02, "trapezoid": 0.02, "midpoint": 0.02,
 
 def run(abut, folder, scheme, step):
     """Energies by the exact one at the ends of all steps, and force at 1.5."""
-    subprocess.run(
-        [abut, "run", SCENE, "--output", folder, "--quiet",
-         "--set", f"Time stepping/Scheme={scheme}", "--set", f"Time stepping/Step size={step}",
-         "--set", f"Time stepping/End time={PERIOD * PERIODS}",
-         "--set", "Output/Pictures=false"], check=True,
-        stderr=subprocess.DEVNULL)
-    with open(folder / "levels.csv") as file:
-        rows = list(csv.DictReader(file))
-    energies = [sum(float(row[f"{kind}_energy"])
-                    for kind in ("kinetic", "strain", "contact")) / EXACT
-                for row in rows]
-    middle = min(rows, key=lambda row: abs(float(row["time"]) - 1.5))
-    return energies, float(middle["force_height"])
+    table = pictures.run(
+        abut, "dynamics-periodic-bar.prm", folder, f"Time stepping/Scheme={scheme}",
+        f"Time stepping/Step size={step}",
+        f"Time stepping/End time={PERIOD * PERIODS}").table("levels.csv")
+    energies = sum(table[f"{kind}_energy"]
+                   for kind in ("kinetic", "strain", "contact")) / EXACT
+    return energies, table["force_height"][abs(table["time"] - 1.5).argmin()]
 
 
 def summary(energies):

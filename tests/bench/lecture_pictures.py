@@ -12,8 +12,7 @@ import numpy
 from matplotlib import patches
 
 import pictures
-from pictures import bare, style
-from abut_tools.run_folder import RunFolder
+from pictures import arrow, bare, style
 
 # The point mass: k u = f - p, gap 1 - u.
 SHIPPED = {"Masses/Stiffness": 1, "Masses/Force": 3, "Constraints/Initial gap": 1}
@@ -34,9 +33,9 @@ METHODS = {
 
 def path(abut, folder, method, settings):
     """Rows (u, p, penalty, barrier) of the outer steps of a run."""
-    table = pictures.run(abut, "point-mass.prm", folder, "levels.csv",
+    given = pictures.run(abut, "point-mass.prm", folder,
                          f"Method/Enforcement={method}", *settings)
-    given = RunFolder(folder)
+    table = given.table("levels.csv")
     for name, value in SHIPPED.items():
         if given.numbers(name) != [value]:
             sys.exit(f"prm/point-mass.prm has {name} = {given.parameter(name)}: "
@@ -86,7 +85,7 @@ def draw_paths(paths, folder):
         one.set_ylabel("contact force $p$")
     axes[1][0].legend(loc="lower right", handlelength=2)
     style.letters(axes.flat)
-    return style.save(figure, folder, "lecture-paths")
+    style.save(figure, folder, "lecture-paths")
 
 
 def draw_errors(paths, folder):
@@ -101,7 +100,7 @@ def draw_errors(paths, folder):
     axes.set_xlabel("outer step")
     axes.set_ylabel("error of the contact force $|p - 2|$")
     style.legend(axes)
-    return style.save(figure, folder, "lecture-errors")
+    style.save(figure, folder, "lecture-errors")
 
 
 def surfaces():
@@ -159,7 +158,7 @@ def draw_buckets(folder):
         one.plot(node_x[picked], node_y[picked], "o", color=style.VERMILION,
                  markersize=5)
         one.set_title(f"{title}: {near.sum()} of {len(near)} facets are tested")
-    return style.save(figure, folder, "lecture-buckets")
+    style.save(figure, folder, "lecture-buckets")
 
 
 def draw_detection(folder):
@@ -177,8 +176,7 @@ def draw_detection(folder):
         radii.add_patch(patches.Circle(at, radius, fill=False, linestyle="--",
                                        edgecolor=colour, linewidth=0.9))
         rim = at + radius * numpy.array([numpy.cos(turn), numpy.sin(turn)])
-        radii.annotate("", rim, at, arrowprops={"arrowstyle": "->",
-                                                "color": colour, "lw": 0.8})
+        arrow(radii, at, rim, colour, linewidth=0.8, shrink=2)
         radii.text(*((at + rim) / 2 + [0.08, 0.08]), name, color=colour)
     radii.plot(*zip(node, centre), color=style.GREY, linewidth=0.8)
     radii.text(1.35, 0.5, "$d_{rs}$", color=style.GREY)
@@ -232,7 +230,7 @@ def draw_detection(folder):
     ranking.plot(*node, "o", color=style.VERMILION, markersize=5)
     ranking.text(0.6, -1.3, "the cheapest facet is the partner", ha="center")
     style.letters(axes.flat)
-    return style.save(figure, folder, "lecture-detection")
+    style.save(figure, folder, "lecture-detection")
 
 
 def draw_sliding(folder):
@@ -260,14 +258,16 @@ def draw_sliding(folder):
             one.plot([3.0, 2.84], [0.7, -0.26], color=style.GREY, linewidth=0.9)
             one.text(3.1, 0.55, "$g_0 + B u$", color=style.GREY)
     style.letters(axes.flat)
-    return style.save(figure, folder, "lecture-sliding")
+    style.save(figure, folder, "lecture-sliding")
 
 
 def draw(abut, folder):
     paths = {method: path(abut, folder / "run", method, how)
              for method, how in METHODS.items()}
-    return (draw_paths(paths, folder), draw_errors(paths, folder),
-            draw_buckets(folder), draw_detection(folder), draw_sliding(folder))
+    draw_paths(paths, folder)
+    draw_errors(paths, folder)
+    for each in (draw_buckets, draw_detection, draw_sliding):
+        each(folder)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The style of `abut draw` for pictures of benches and documents. Needs
+"""Runs and drawings for the pictures of documents, in the style of `abut draw`. Needs
 Matplotlib."""
 import argparse
 import pathlib
@@ -9,17 +9,21 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "plugin/tools"))
+from matplotlib.collections import PolyCollection  # noqa: E402
+
 from abut_tools import style  # noqa: E402
-from abut_tools.run_folder import read_table  # noqa: E402
+from abut_tools.run_folder import RunFolder  # noqa: E402
 
 
-def run(abut, scene, folder, table, *settings):
-    """Columns of a table that a run of a shipped scene writes."""
+def run(abut, scene, folder, *settings, check=True):
+    """A run of a scene, of prm/ or with its path."""
+    scene = ROOT / "prm" / scene
     words = [word for setting in ("Output/Pictures=false", *settings)
              for word in ("--set", setting)]
-    subprocess.run([abut, "run", ROOT / "prm" / scene, "--quiet", "--output",
-                    folder, *words], check=True, stderr=subprocess.DEVNULL)
-    return read_table(folder / table)
+    subprocess.run([pathlib.Path(abut).resolve(), "run", scene, "--quiet", "--output",
+                    folder, *words],
+                   cwd=scene.parent, check=check)
+    return RunFolder(folder)
 
 
 def bare(axes, x, y):
@@ -30,18 +34,42 @@ def bare(axes, x, y):
     axes.axis("off")
 
 
-def main(document, draw):
-    """Write the SVG files of the pictures that draw(abut, folder) makes in a
-    folder for itself."""
-    arguments = argparse.ArgumentParser(description=document)
-    arguments.add_argument("abut", type=pathlib.Path)
-    arguments.add_argument("--folder", type=pathlib.Path,
-                           default=ROOT / "doc/pictures")
-    arguments = arguments.parse_args()
+def arrow(axes, begin, end, colour=style.BLACK, kind="->", linewidth=0.9, shrink=0,
+          head=8):
+    """An arrow; `shrink` points are left out at its ends."""
+    axes.annotate("", end, begin, arrowprops={
+        "arrowstyle": kind, "color": colour, "linewidth": linewidth,
+        "shrinkA": shrink, "shrinkB": shrink, "mutation_scale": head})
+
+
+def field(axes, polygons, values, linewidth, text, **more):
+    """Polygons with colours for values."""
+    shown = PolyCollection(polygons, array=values, cmap=style.FIELD_MAP,
+                           edgecolors="#00000060", linewidths=linewidth, rasterized=True)
+    axes.add_collection(shown)
+    axes.get_figure().colorbar(shown, ax=axes, label=text, **more)
+
+
+def parser(document):
+    """The words of a script that makes pictures."""
+    result = argparse.ArgumentParser(description=document)
+    result.add_argument("abut", type=pathlib.Path)
+    result.add_argument("--folder", type=pathlib.Path, default=ROOT / "doc/pictures")
+    return result
+
+
+def write(arguments, draw):
+    """Write the SVG files that draw(abut, folder) makes in a folder for itself."""
     with tempfile.TemporaryDirectory() as folder:
-        for svg, _ in draw(arguments.abut, pathlib.Path(folder)):
+        folder = pathlib.Path(folder)
+        draw(arguments.abut, folder)
+        for svg in folder.glob("*.svg"):
             (arguments.folder / svg.name).write_bytes(svg.read_bytes())
             print(arguments.folder / svg.name)
+
+
+def main(document, draw):
+    write(parser(document).parse_args(), draw)
 
 
 def save(figure, picture):

@@ -8,13 +8,7 @@ import numpy
 from matplotlib import patches
 
 import pictures
-from pictures import bare, run, style
-
-
-def arrow(axes, begin, end, colour=style.BLACK, kind="->"):
-    axes.annotate("", end, begin, arrowprops={"arrowstyle": kind, "color": colour,
-                                              "lw": 0.9, "shrinkA": 0,
-                                              "shrinkB": 0})
+from pictures import arrow, bare, run, style
 
 
 def hatched(axes, x, y):
@@ -79,7 +73,7 @@ def draw_contact(folder):
     laws.set_ylabel("pressure $p$")
     laws.legend(loc="upper right")
     style.letters(axes.flat)
-    return style.save(figure, folder, "theory-contact")
+    style.save(figure, folder, "theory-contact")
 
 
 def draw_points(folder):
@@ -119,20 +113,20 @@ def draw_points(folder):
                              alpha=0.2, linewidth=0)
             one.text(1.35, 0.85, r"$\psi_j$", color=style.VERMILION)
     style.letters(axes.flat)
-    return style.save(figure, folder, "theory-points")
+    style.save(figure, folder, "theory-points")
 
 
-def draw_patch(abut, scratch, folder):
+def draw_patch(abut, folder):
     figure, [[axes]] = style.figure(style.COLUMN, 0.62)
     for i, word in enumerate(("node to segment", "dual mortar")):
-        table = run(abut, "patch-2d.prm", scratch, "pair_1.csv",
-                    f"Method/Discretisation={word}")
+        table = run(abut, "patch-2d.prm", folder / "run",
+                    f"Method/Discretisation={word}").table("pair_1.csv")
         axes.plot(table["arc"], table["pressure"], label=word,
                   **style.curve_style(i))
     axes.set_xlabel("arc length along the contact line")
     axes.set_ylabel("pressure (exact: 1)")
     style.legend(axes)
-    return style.save(figure, folder, "theory-patch-test")
+    style.save(figure, folder, "theory-patch-test")
 
 
 def draw_friction(folder):
@@ -161,10 +155,10 @@ def draw_friction(folder):
     disc.text(0.98, 0.22, r"slip: $\tau = \rho\,x/|x|$", color=style.VERMILION)
     disc.text(0, -1.55, r"$x = \tau - c\,s$ decides", ha="center")
     style.letters(axes.flat)
-    return style.save(figure, folder, "theory-friction")
+    style.save(figure, folder, "theory-friction")
 
 
-def draw_mass(abut, scratch, folder):
+def draw_mass(abut, folder):
     figure, axes = style.figure(style.PAGE, 0.36, 1, 2)
     sketch, flight = axes.flat
     bare(sketch, (-1.6, 2.6), (-2.5, 1.7))
@@ -185,20 +179,21 @@ def draw_mass(abut, scratch, folder):
     sketch.text(-1.2, -0.6, "$u$")
     arrow(sketch, (0, -0.6), (0, -1.3), style.VERMILION)
     sketch.text(0.1, -1.2, "$mg$", color=style.VERMILION)
-    table = run(abut, "dynamics-bouncing-ball.prm", scratch, "levels.csv")
+    table = run(abut, "dynamics-bouncing-ball.prm", folder / "run").table("levels.csv")
     name = next(key for key in table if key.startswith("u"))
     flight.plot(table["time"], 1 + table[name], color=style.BLUE)
     flight.set_xlabel("time")
     flight.set_ylabel("gap of the ball")
     flight.set_ylim(0, None)
     style.letters(axes.flat)
-    return style.save(figure, folder, "lecture-mass")
+    style.save(figure, folder, "lecture-mass")
 
 
 def draw(abut, folder):
-    return (draw_contact(folder), draw_points(folder),
-            draw_patch(abut, folder / "run", folder), draw_friction(folder),
-            draw_mass(abut, folder / "run", folder))
+    for each in (draw_contact, draw_points, draw_friction):
+        each(folder)
+    for each in (draw_patch, draw_mass):
+        each(abut, folder)
 
 
 if __name__ == "__main__":
