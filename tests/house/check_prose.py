@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Language of the manual: sentences of 20 words in the mean on each page, at most 5 %
 of them above 35 words, and none of the words that the style excludes. Reads
-CONTRIBUTING.md and the pages of doc without development notes (doc/develop) and
-generated pages; code, formulas, tables and headings are no sentences. No line of these and of generated pages has a date, a machine or an attempt.
+CONTRIBUTING.md and the pages of doc without generated pages; code, formulas, tables and
+headings are no sentences. No line of these and of generated pages has a date, a machine
+or an attempt. In development notes (doc/develop) only the words are checked.
 
     tests/house/check_prose.py [--table]"""
 import argparse
@@ -98,6 +99,10 @@ def pages():
             yield page
 
 
+def notes():
+    yield from sorted((ROOT / "doc/develop").glob("*.md"))
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--table", action="store_true",
@@ -122,6 +127,10 @@ def main():
             bad += 1
         for what, sentence in [*findings(text), *diary(text)]:
             print(f"{name}: {what}: {sentence[:150]}")
+            bad += 1
+    for page in notes():
+        for what, sentence in findings(page.read_text(encoding="utf-8")):
+            print(f"{page.relative_to(ROOT)}: {what}: {sentence[:150]}")
             bad += 1
     for name in sorted(GENERATED):
         for what, line in diary((ROOT / f"doc/{name}.md").read_text(encoding="utf-8")):
