@@ -3,8 +3,10 @@
 """Language of the manual: sentences of 20 words in the mean on each page, at most 5 %
 of them above 35 words, and none of the words that the style excludes. Reads
 CONTRIBUTING.md and the pages of doc without generated pages; code, formulas, tables and
-headings are no sentences. No line of these and of generated pages has a date, a machine
-or an attempt. In development notes (doc/develop) only the words are checked.
+headings are no sentences. The guide, which is these pages without reference, has at most
+40000 words, with tables and without code. No line of these and of generated pages has a
+date, a machine or an attempt. In development notes (doc/develop) only the words are
+checked.
 
     tests/house/check_prose.py [--table]"""
 import argparse
@@ -14,6 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEAN, LONG, SHARE = 20, 35, 0.05
+GUIDE = 40000  # words at most
 GENERATED = {"commands", "failures", "parameters"}  # by the program
 REFERENCE = GENERATED | {"output", "verification"}  # not a part of the guide
 
@@ -136,8 +139,11 @@ def main():
         for what, line in diary((ROOT / f"doc/{name}.md").read_text(encoding="utf-8")):
             print(f"doc/{name}.md: {what}: {line[:150]}")
             bad += 1
-    if table:
-        print(f"{total} words of prose; the guide has {guide}, with tables, without code")
+    print(f"{total} words of prose; the guide has {guide}, with tables, without code,"
+          f" and may have {GUIDE}")
+    if guide > GUIDE:
+        print("Shorten pages, or refer to the page that has a fact already.")
+        bad += 1
     return 1 if bad else 0
 
 
