@@ -36,13 +36,42 @@ def run(scene, settings=(), folder="out"):
     return p.folder / folder
 
 
-def drawn(folder, width=174):
+def texts(figure):
+    """The words of a drawn figure, and the numbers at plane axes."""
+    for axes in figure.axes:
+        for axis in () if axes.name == "3d" else (axes.xaxis, axes.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            yield from (text for at, text in zip(axis.get_majorticklocs(),
+                                                 axis.get_majorticklabels())
+                        if low <= at <= high)
+            yield axis.label
+        yield from (axes.title, *axes.texts)
+    for legend in figure.findobj(style.matplotlib.legend.Legend):
+        yield from (legend.get_title(), *legend.get_texts())
+
+
+def expect_legible(figure, what):
+    """Words within the figure, and apart."""
+    boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)
+             if text.get_visible() and text.get_text()]
+    for i, (text, box) in enumerate(boxes):
+        p.expect(box.x0 >= 0 and box.y0 >= 0 and box.x1 <= figure.bbox.x1
+                 and box.y1 <= figure.bbox.y1, f"{what}: '{text}' is cut off")
+        for other, of_other in boxes[:i]:
+            p.expect(box.x1 <= of_other.x0 or of_other.x1 <= box.x0
+                     or box.y1 <= of_other.y0 or of_other.y1 <= box.y0,
+                     f"{what}: '{text}' is on '{other}'")
+
+
+def drawn(folder):
     """Data of the pictures of a run by picture and name."""
-    result = {}
-    for name, figure in draw.pictures(RunFolder(folder), width):
-        figure.canvas.draw()
-        result[name] = style.drawn_data(figure)
-        style.pyplot.close(figure)
+    for width in (84, 174):
+        result = {}
+        for name, figure in draw.pictures(RunFolder(folder), width):
+            figure.canvas.draw()
+            expect_legible(figure, f"{name}, {width} mm")
+            result[name] = style.drawn_data(figure)
+            style.pyplot.close(figure)
     return result
 
 
@@ -75,6 +104,13 @@ def check_point_mass():
     near(data["lagrangian"]["saddle"], [[1, -2]], 1e-12, "saddle point")
     near(drawn(run("method-of-multipliers.prm"))["path"]["path"][:5],
          [[x, x] for x in (0, 1 / 4, 3 / 8, 7 / 16, 15 / 32)], 1e-12, "path")
+    # A later run without pictures leaves none of an earlier one.
+    p.call("run", p.source / "prm/point-mass.prm", "--output",
+           run("point-mass.prm", ["Output/Pictures=true"]), "--quiet",
+           "--set", "Output/Pictures=false")
+    left = [file.name for end in ("svg", "png")
+            for file in (p.folder / "out").glob(f"*.{end}")]
+    p.expect(not left, f"pictures of an earlier run: {left}")
 
 
 def check_hertz():

@@ -35,7 +35,7 @@ def peers(folder):
         axis.set_title(f"{scene} surfaces, nearest facet", y=0.9)
         axis.set_xlabel("facets")
     axes[0, 0].set_ylabel("build and query [ns per node]")
-    style.legend_above(figure, axes[0, 0].get_legend_handles_labels()[0], 4)
+    style.legend_above(figure, axes[0, 0].get_legend_handles_labels()[0])
     style.letters(axes.flat)
     pictures.save(figure, folder / "search-peers.svg")
 

@@ -340,7 +340,7 @@ def hertz(page):
         style.logarithmic(axes.xaxis)
         style.logarithmic(axes.yaxis)
     style.letters((left, right))
-    style.legend_above(figure, handles, 4)
+    style.legend_above(figure, handles)
     page.save(figure, "hertz-error")
 
 
@@ -431,7 +431,7 @@ def impact(page):
     for axes in all_axes:
         axes.set_xlabel("time [ms]")
     style.letters(all_axes)
-    style.legend_above(figure, force.get_legend_handles_labels()[0], 4)
+    style.legend_above(figure, force.get_legend_handles_labels()[0])
     page.save(figure, "impact")
 
 
@@ -458,7 +458,7 @@ def law_in_c(page):
     chart.set_ylabel("pressure")
     chart.set_ylim(-0.5, 19)
     style.letters((sketch, chart))
-    style.legend_above(figure, chart.get_legend_handles_labels()[0], 5)
+    style.legend_above(figure, chart.get_legend_handles_labels()[0])
     page.save(figure, "law")
 
 

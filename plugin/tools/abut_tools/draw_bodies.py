@@ -65,36 +65,42 @@ def _plane(run, mesh, contact, obstacles, width):
     surfaces = _obstacle_lines(obstacles, factor)
     low, high = _frame(points, surfaces)
     zoom = _contact_zone(contact, size)
-    n = 1 if zoom is None else 2
     aspect = float(numpy.clip((high - low)[1] / (high - low)[0], 0.2, 1.5))
     if zoom is None and aspect > 0.7:
         width = min(width, 130 / aspect)
-    figure, axes = style.figure(
-        width, (aspect if zoom is None else
-                max(0.45, min(0.5 * aspect, 0.75))) * 0.9 + 0.08,
-        columns=n)
-    axes = axes[0]
+    # The zone beside the bodies, or below flat ones in a column.
+    heights = [aspect]
+    if zoom is not None and style.is_narrow(width) and aspect < 0.6:
+        heights.append(0.6)
+    columns = 1 if zoom is None else 3 - len(heights)
+    is_below = style.is_narrow(width) or zoom is None and aspect < 0.3
+    room = (width - 10 * columns - (0 if is_below else 20)) / columns
+    figure, axes = style.pyplot.subplots(
+        len(heights), columns, squeeze=False, height_ratios=heights,
+        figsize=(width * style.MM, style.MM * (
+            room * max(sum(heights), columns - 1) + 14 * len(heights)
+            + (30 if is_below else 19))))
+    axes = axes.ravel()
     norm = _range(_stress(mesh))
-    for axis in axes:
-        field = _draw_bodies(axis, mesh, points, norm)
+    views = [(low, high)] if zoom is None else [(low, high), zoom]
+    for axis, (begin, end) in zip(axes, views):
+        field = _draw_bodies(axis, mesh, points, norm,
+                             0.2 * min(1, room / 60))
         axis.add_collection(style.named(collections.LineCollection(
             surfaces, colors=style.BLACK, linewidths=1.8, zorder=3),
             "obstacles" if axis is axes[0] else None))
         states = _draw_states(axis, contact, factor)
         style.plane_map(axis)
+        axis.set_xlim(begin[0], end[0])
+        axis.set_ylim(begin[1], end[1])
     style.named(field, "von_mises_stress")
-    axes[0].set_xlim(low[0], high[0])
-    axes[0].set_ylim(low[1], high[1])
     if zoom is not None:
-        (x0, y0), (x1, y1) = zoom
-        axes[1].set_xlim(x0, x1)
-        axes[1].set_ylim(y0, y1)
-        axes[0].add_patch(patches.Rectangle((x0, y0), x1 - x0, y1 - y0,
+        axes[0].add_patch(patches.Rectangle(zoom[0], *(zoom[1] - zoom[0]),
                                             fill=False, linewidth=0.6,
                                             edgecolor=style.BLACK, zorder=4))
         axes[1].set_ylabel("")
-    bar = figure.colorbar(field, ax=list(axes), aspect=30, pad=0.02)
-    bar.set_label(label("von_mises_stress"))
+    style.colour_bar(figure, field, list(axes), label("von_mises_stress"),
+                     is_below, pad=0.02)
     handles = [lines.Line2D([], [], color=colour, linewidth=2.4, label=text)
                for _, text, colour in states]
     if len(_inside(surfaces, low, high)):
@@ -102,7 +108,7 @@ def _plane(run, mesh, contact, obstacles, width):
                                     label="obstacle"))
     title = (f"displacement drawn {factor:g} times" if factor > 1 else
              "displacement drawn to scale")
-    style.legend_above(figure, handles, max(1, len(handles)), title)
+    style.legend_above(figure, handles, title)
     style.letters(axes)
     return figure
 
@@ -131,7 +137,7 @@ def _frame(points, surfaces):
             numpy.maximum(high, nearest) + strip)
 
 
-def _draw_bodies(axes, mesh, points, norm):
+def _draw_bodies(axes, mesh, points, norm, linewidth):
     """The stress, the mesh and the outline; returns the stress."""
     places, values, corners = geometry.fine_triangles(mesh, points,
                                                       _stress(mesh))
@@ -140,7 +146,7 @@ def _draw_bodies(axes, mesh, points, norm):
         shading="gouraud", cmap=style.FIELD_MAP, norm=norm, rasterized=True)
     edges = geometry.edges(mesh)
     axes.add_collection(collections.LineCollection(
-        points[edges], colors="#ffffff90", linewidths=0.2,
+        points[edges], colors="#ffffff90", linewidths=linewidth,
         rasterized=len(edges) > MOST_EDGES))
     axes.add_collection(style.named(collections.LineCollection(
         points[geometry.outline(mesh)], colors="#303030", linewidths=0.6),
@@ -280,15 +286,15 @@ def _in_space(mesh, contact, obstacles, width):
     factor = geometry.exaggeration(mesh, mesh.fields["displacement"])
     pressed = [] if contact is None else _secondary_faces(contact)
     n = 2 if pressed else 1
+    rows, height = (n, 0.8 * n) if style.is_narrow(width) else (1, 0.52)
     figure = style.pyplot.figure(figsize=(width * style.MM,
-                                          width * 0.52 * style.MM))
-    axes = [figure.add_subplot(1, n, i + 1, projection="3d") for i in range(n)]
+                                          width * height * style.MM))
+    axes = [figure.add_subplot(rows, n // rows, i + 1, projection="3d")
+            for i in range(n)]
     points = _moved(mesh, factor)
     faces = geometry.surface(mesh)
     _draw_faces(figure, axes[0], points, faces, _stress(mesh),
                 label("von_mises_stress"), "von_mises_stress")
-    title = f"displacement drawn {factor:g} times" if factor > 1 else ""
-    axes[0].set_title(title)
     if pressed:
         _draw_faces(figure, axes[1], _moved(contact, factor), pressed,
                     contact.fields["pressure"].astype(float),
@@ -298,9 +304,9 @@ def _in_space(mesh, contact, obstacles, width):
         axis.tick_params(pad=-2)
         for name in "xyz":
             getattr(axis, f"set_{name}label")(f"${name}$", labelpad=-6)
-            getattr(axis, f"{name}axis").set_major_locator(
-                style.ticker.MaxNLocator(4))
             getattr(axis, f"{name}axis").pane.set_facecolor("white")
+    if factor > 1:
+        style.legend_above(figure, [], f"displacement drawn {factor:g} times")
     return figure
 
 
@@ -342,6 +348,7 @@ def _draw_faces(figure, axes, points, faces, values, text, name):
     centre = (low + high) / 2
     for axis, c, s in zip("xyz", centre, size):
         getattr(axes, f"set_{axis}lim")(c - s / 2, c + s / 2)
+        getattr(axes, f"{axis}axis").set_major_locator(style.ticker.MaxNLocator(
+            max(1, round(3 * s / size.max()))))
     axes.set_box_aspect(size, zoom=0.95)
-    bar = figure.colorbar(mapped, ax=axes, shrink=0.6, aspect=25, pad=0.08)
-    bar.set_label(text)
+    style.colour_bar(figure, mapped, axes, text, shrink=0.6, aspect=25, pad=0.08)

@@ -39,7 +39,7 @@ def convergence(run, width):
     axes[-1].set_ylim(0, 1.1 * max(table["steps"]))
     style.whole_numbers(axes[-1].yaxis)
     style.logarithmic(axes[-1].xaxis)
-    axes[-1].set_ylabel("linear systems per mesh")
+    axes[-1].set_ylabel("linear systems\nper mesh")
     axes[-1].set_xlabel(label("dofs"))
     style.letters(axes)
     return figure

@@ -40,7 +40,7 @@ def _displacement(mesh, title, width):
         mesh, mesh.points[:, :2], mesh.fields["displacement"].astype(float))
     mesh_of = Triangulation(points[:, 0], points[:, 1], corners)
     aspect = _aspect(mesh)
-    narrow = width < 1.2 * style.COLUMN
+    narrow = style.is_narrow(width)
     figure = style.pyplot.figure(figsize=(width * style.MM, width * style.MM * (
         0.1 + 0.7 + 0.75 * aspect if narrow else
         0.08 + 0.36 * max(aspect, 0.6))))
@@ -75,8 +75,7 @@ def _displacement(mesh, title, width):
         # Matplotlib before 3.8 has an artist for each level.
         for level in getattr(levels, "collections", [levels]):
             level.set_rasterized(True)
-    bar = figure.colorbar(field, ax=top, aspect=30)
-    bar.set_label(label("displacement"))
+    style.colour_bar(figure, field, top, label("displacement"))
     style.plane_map(top)
     top.set_title(title)
     return figure
@@ -101,12 +100,10 @@ def _states(mesh, title, width):
     if len(edges) <= MOST_EDGES:
         axes.add_collection(collections.LineCollection(
             mesh.points[edges][:, :, :2], colors="#00000030", linewidths=0.2))
-    axes.legend(handles=[patches.Patch(facecolor=STATES[state][1],
-                                       edgecolor=style.GREY, linewidth=0.4,
-                                       label=STATES[state][0])
-                         for state in present],
-                loc="lower center", bbox_to_anchor=(0.5, 1.0),
-                ncol=len(present))
+    style.legend(axes, [patches.Patch(facecolor=STATES[state][1],
+                                      edgecolor=style.GREY, linewidth=0.4,
+                                      label=STATES[state][0])
+                        for state in present])
     style.plane_map(axes)
     if title:
         axes.set_xlabel(f"$x$ [length], {title}")

@@ -128,7 +128,6 @@ def _penalty(mass, sweep, width):
     exact = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
     axes.axhline(mass.wall, **exact)
     axes.axhline(mass.wall_force, **exact)
-    axes.set_xscale("log")
     for i, (name, curve, marks, text) in enumerate((
             ("displacement", displacement, sweep["u"], "displacement $u$"),
             ("force", force, sweep["p"], "contact force $p$"))):
@@ -141,14 +140,15 @@ def _penalty(mass, sweep, width):
     axes.set_ylim(1.12 * min(0.0, *values),
                   1.12 * max(*values, 0.1 * abs(mass.free)))
     axes.set_xlim(penalties[0], penalties[-1] * 1.3)
+    style.logarithmic(axes.xaxis)
     axes.set_xlabel(r"penalty / stiffness, $\epsilon/k$")
-    axes.set_ylabel("displacement $u$ [length], contact force $p$ [force]")
+    axes.set_ylabel("displacement $u$ [length],\ncontact force $p$ [force]")
     style.legend(axes)
     return figure
 
 
 def _lagrangian(mass, width):
-    figure, [[axes]] = style.figure(width, 0.68)
+    figure, [[axes]] = style.figure(width, 0.95 if style.is_narrow(width) else 0.68)
     multiplier = -mass.wall_force
     span = max(abs(multiplier), abs(mass.f)) or 1.0
     bottom, top = multiplier - span, multiplier + span
@@ -160,9 +160,9 @@ def _lagrangian(mass, width):
     levels = numpy.linspace(saddle - reach, saddle + reach, 27)
     lines = axes.contour(u, multipliers, values, levels, cmap=style.FIELD_MAP,
                          linewidths=0.8)
-    bar = figure.colorbar(lines, ax=axes, aspect=30,
-                          ticks=style.ticker.MaxNLocator(6))
-    bar.set_label(r"Lagrangian $L(u, \lambda)$ [force·length]")
+    bar = style.colour_bar(figure, lines, axes,
+                           r"Lagrangian $L(u, \lambda)$ [force·length]",
+                           ticks=style.ticker.MaxNLocator(6))
     bar.outline.set_linewidth(0)
     line = numpy.array([mass.low, mass.high])
     style.named(*axes.plot(
@@ -178,7 +178,7 @@ def _lagrangian(mass, width):
     axes.set_ylim(bottom, top)
     axes.grid(False)
     axes.set_xlabel("displacement $u$ [length]")
-    axes.set_ylabel(r"multiplier $\lambda$ = - contact force $p$ [force]")
+    axes.set_ylabel(r"multiplier $\lambda = -p$ [force]")
     style.legend(axes)
     return figure
 

@@ -42,7 +42,8 @@ def _sweep(run, sweep, width):
                     f"{key}_automatic")
         for a, b in zip(x, y):
             axes.annotate(f"{b:.0f} ns", (a, b), textcoords="offset points",
-                          xytext=(0, 7), ha="center", fontsize=7)
+                          xytext=(0, 7), ha="center", fontsize=7, bbox={
+                              "color": "white", "pad": 0.3})
     axes.plot([], [], "o", markersize=7, fillstyle="none", color=style.BLACK,
               markeredgewidth=1.2, label="automatic choice")
     if sizes:
@@ -165,6 +166,5 @@ def _one_node(run, width):
     axes.set_ylim(low[j], high[j])
     for name, axis in (("x", i), ("y", j)):
         getattr(axes, f"set_{name}label")(f"${'xyz'[axis]}$ [length]")
-    axes.legend(handles=handles, loc="lower center", ncol=3,
-                bbox_to_anchor=(0.5, 1.0))
+    style.legend(axes, handles)
     return figure

@@ -515,7 +515,7 @@ def main(words):
                for text, colour in sketch.notes]
     width, height = figure.get_size_inches()
     figure.set_size_inches(width, height + 4.2 * len(handles) * style.MM)
-    style.legend_above(figure, handles, 1)
+    style.legend_above(figure, handles, columns=1)
     folder = os.path.dirname(arguments.file) or "."
     if not os.path.isdir(folder):
         raise InputError(f"--draw {arguments.file}: there is no folder {folder}.")

@@ -57,13 +57,21 @@ def line_style(number):
     return {"color": COLOURS[number % 7], "linestyle": DASHES[number % 8]}
 
 
+def is_narrow(width):
+    """Whether a width is that of a column; colour bars are below there."""
+    return width < 1.2 * COLUMN
+
+
 def figure(width, aspect=0.62, rows=1, columns=1, **more):
     """Figure and axes, `width` mm wide, each row `aspect` of it high; in a
     column rows are higher, as letters are not smaller there."""
-    if width < 1.2 * COLUMN:
+    if is_narrow(width):
         aspect = max(aspect, 0.5 if rows > 1 else 0.72)
-    return pyplot.subplots(rows, columns, squeeze=False, figsize=(
+    made, all_axes = pyplot.subplots(rows, columns, squeeze=False, figsize=(
         width * MM, width * aspect * rows * MM), **more)
+    for axes in all_axes.flat if is_narrow(width) else ():
+        axes.xaxis.set_major_locator(FewTicks())
+    return made, all_axes
 
 
 def named(artist, name):
@@ -91,21 +99,31 @@ def drawn_data(of_figure):
     return result
 
 
-def legend(axes, **more):
+def _columns(of_figure, handles):
+    """Columns of a legend: the fewest rows that fit into the width."""
+    room = of_figure.get_size_inches()[0] / MM - 10
+    sizes = [1.3 * len(re.sub(r"\\[a-z]+|[$\\{}^_]", "", handle.get_label())) + 14
+             for handle in handles]
+    for rows in range(1, len(sizes)):
+        columns = math.ceil(len(sizes) / rows)
+        if sum(map(max, numpy.array_split(sizes, columns))) <= room:
+            return columns
+    return 1
+
+
+def legend(axes, handles=None, **more):
     """A legend where it hides no data: above the axes, in columns."""
-    handles, labels = axes.get_legend_handles_labels()
+    handles = handles or axes.get_legend_handles_labels()[0]
     if not handles:
         return None
-    width = axes.get_figure().get_size_inches()[0] / MM
-    longest = max(len(re.sub(r"\\[a-z]+|[$\\{}^_]", "", label))
-                  for label in labels)
-    columns = max(1, min(len(labels), int((width - 15) / (1.3 * longest + 14))))
-    return axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0),
-                       ncol=columns, borderaxespad=0.3, **more)
+    return axes.legend(handles=handles, loc="lower center",
+                       bbox_to_anchor=(0.5, 1.0), borderaxespad=0.3,
+                       ncol=_columns(axes.get_figure(), handles), **more)
 
 
-def legend_above(of_figure, handles, columns, title=None):
+def legend_above(of_figure, handles, title=None, columns=None):
     """One legend for all axes, above them; there is room left for it."""
+    columns = columns or _columns(of_figure, handles)
     rows = math.ceil(len(handles) / columns) + (1 if title else 0)
     if rows == 0:
         return
@@ -136,6 +154,31 @@ def logarithmic(axis):
             subs=range(2, 10), numticks=100) if step == 1
             else ticker.LogLocator(numticks=100))
         axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def colour_bar(of_figure, mapped, axes, text, is_below=None, **more):
+    """A colour bar beside the axes, or below them."""
+    if is_below is None:
+        is_below = is_narrow(of_figure.get_size_inches()[0] / MM)
+    place = ({"location": "bottom", "aspect": 40} if is_below
+             else {"aspect": 30})
+    return of_figure.colorbar(mapped, ax=axes, label=text, **{**place, **more})
+
+
+class FewTicks(ticker.MaxNLocator):
+    """At most five intervals, and as many as there is room for; no number
+    sticks out at the right end of an axis."""
+
+    def __call__(self):
+        axes = self.axis.axes
+        size, least = ((axes.bbox.width, 28) if self.axis.axis_name == "x"
+                       else (axes.bbox.height, 12))
+        points = 72 * size / axes.get_figure().dpi
+        self.set_params(nbins=min(5, max(1, int(points / least))))
+        found = super().__call__()
+        low, high = sorted(self.axis.get_view_interval())
+        return (found[found < high - 0.04 * (high - low)]
+                if self.axis.axis_name == "x" else found)
 
 
 def whole_numbers(axis):
@@ -173,15 +216,17 @@ def plane_map(axes):
     axes.set_xlabel("$x$ [length]")
     axes.set_ylabel("$y$ [length]")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(ticker.MaxNLocator(5))
+        axis.set_major_locator(FewTicks())
 
 
 def letters(all_axes):
     """(a), (b), ... at the axes of a figure with several."""
     if len(all_axes) > 1:
         for axes, letter in zip(all_axes, itertools.count()):
-            axes.text(0.0, 1.0, f"({chr(97 + letter)})", fontweight="bold",
-                      transform=axes.transAxes, ha="right", va="bottom")
+            axes.annotate(f"({chr(97 + letter)})", (0, 1), (0, 4),
+                          xycoords="axes fraction",
+                          textcoords="offset points", fontweight="bold",
+                          ha="right", va="bottom")
 
 
 def svg_element(of_figure, prefix):
