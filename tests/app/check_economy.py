@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """No more than a scene needs: what runs leave out, what they say about it, and
 what `Enforcement = auto` takes."""
-import csv
-import json
 
 from program import Program, set_words
 
@@ -17,11 +15,7 @@ def run(scene, settings=None, *words, code=0):
                     "out", *arguments, *words)
     p.expect(result.returncode == code,
              f"{scene}: exit code {result.returncode}\n{result.stderr}")
-    summary = json.loads((p.folder / "out/summary.json").read_text())
-    with open(p.folder / "out/levels.csv") as file:
-        meshes = [{key: float(value or "nan") for key, value in row.items()}
-                  for row in csv.DictReader(file)]
-    return summary, meshes, result.stdout
+    return *p.results(), result.stdout
 
 
 def integers(meshes, key):

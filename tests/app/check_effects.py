@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a scene sets has an effect, or is refused by name, or is listed as not
 used; data that cannot be computed with are refused before anything is."""
-import json
 
 from program import Program, set_words
 
@@ -77,7 +76,7 @@ p.write("unused.prm", text + "\nsubsection Method\n  set Barrier factor = 0.5\n"
         "  set Enforcement = lagrange\nend\n")
 result = p.call("run", "unused.prm", "--output", "out", "--verbose")
 p.expect(result.returncode == 0, f"unused setting of a file: {result.stderr}")
-summary = json.loads((p.folder / "out/summary.json").read_text())
+summary = p.summary()
 p.expect(summary["not_used"] == ["Method/Barrier factor: it belongs to "
                                  "Method/Enforcement = barrier."],
          f"not_used is {summary['not_used']}")

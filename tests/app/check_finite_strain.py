@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Large strain: uniform states against roots of scalar equations, rotations,
 order of Newton's method, load steps, and what is refused."""
-import csv
 import math
 
 from block_scene import block, pair, section, solid
@@ -72,10 +71,7 @@ def solved(scene, *settings, code=0):
 
 def newton(load_step):
     """Rows of the last mesh of a load step."""
-    with open(p.folder / "out/newton.csv", encoding="utf-8") as file:
-        rows = [{key: float(value) for key, value in row.items()}
-                for row in csv.DictReader(file)]
-    rows = [row for row in rows if row["load_step"] == load_step]
+    rows = [row for row in p.table("newton.csv") if row["load_step"] == load_step]
     level = max(row["level"] for row in rows)
     return [row for row in rows if row["level"] == level]
 

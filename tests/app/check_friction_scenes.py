@@ -3,7 +3,6 @@
 too far in a step, supports that leave a node one way only, and bodies of
 several parts that hold each other. What they end with is known from formulas
 or is an error that says what to do."""
-import json
 
 from block_scene import section
 from program import Program, set_words
@@ -22,7 +21,7 @@ def solved(scene, *settings):
     p.expect(result.returncode == 0,
              f"{scene} {settings}: exit code {result.returncode}\n"
              + result.stderr)
-    return json.loads((p.folder / "out/summary.json").read_text())
+    return p.summary()
 
 
 # A shaft of radius 1.01 in a ring of radius 1 that turns until all slips: the

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run prints: a screen at most, in words, with the numbers of
 summary.json; scenes of `abut new` and their exact values; `abut check`."""
-import json
 import math
 import os
 import pty
@@ -117,7 +116,7 @@ def check_run(scene, settings=(), least=3, code=0):
                      for line in result.stderr.splitlines())
     p.expect((f" {n_warnings} warning" if n_warnings else "no warnings")
              in result.stdout, f"{what}: number of warnings")
-    summary = json.loads((p.folder / "out/summary.json").read_text())
+    summary = p.summary()
     n = (check_pairs(what, result.stdout.splitlines(), summary)
          + check_figures(what, result.stdout.splitlines(), summary))
     p.expect(n >= least, f"{what}: {n} numbers in\n{result.stdout}")
@@ -141,12 +140,11 @@ for name, settings, *more in (
 
 # All there is, in words of the summary; and nothing.
 result = p.call("run", PRM / "rigid-plate.prm", "--output", "out", "--verbose")
-for key in json.loads((p.folder / "out/summary.json").read_text()):
+for key in p.summary():
     p.expect(key in result.stdout or key in (
         "warnings", "codes", "not_used", "could_be_left_out", "modelled",
         "sections", "expected", "title", "examination", "failures", "findings")
-             or value_of(json.loads((p.folder / "out/summary.json")
-                                    .read_text()), key) in (None, [], ""),
+             or value_of(p.summary(), key) in (None, [], ""),
              f"--verbose prints no {key}")
 for words in ("\n  Model\n", "\n  Cost "):
     p.expect(words in result.stdout, f"no '{words}' with --verbose")

@@ -2,7 +2,6 @@
 """`abut search` against brute force and closed forms on small surfaces, and
 its errors."""
 import itertools
-import json
 import math
 import struct
 
@@ -38,15 +37,11 @@ def box(n, low, high, surface, *more):
         f"set Surface ids = {surface}", *more])
 
 
-def summary():
-    return json.loads((p.folder / "out/summary.json").read_text())
-
-
 def search(file, *words):
     result = p.call("search", file, *QUIET, *words)
     p.expect(result.returncode == 0, f"exit {result.returncode}: "
              f"{result.stderr}")
-    return summary() if result.returncode == 0 else {}
+    return p.summary() if result.returncode == 0 else {}
 
 
 def expect(found, what, **values):
@@ -126,16 +121,16 @@ expect(search(scene(upper(8, 0.0625, "set Move = 0.5, 0, 0"), lower(8),
 # Too far apart; inside out; overlapping; on the wrong side of a thin body.
 result = p.call("search", scene(upper(4, 3), lower(4)), *QUIET)
 p.expect("no facet is within reach" in result.stderr, "no word on reach")
-expect(summary(), "far", contact_elements=0, candidates=0, pairs=0,
+expect(p.summary(), "far", contact_elements=0, candidates=0, pairs=0,
        uncovered_area=1.0)
 result = p.call("search", scene(box((4, 4), (0, 0, -1), (1, 1, 0.05), 5),
                                 lower(4)), *QUIET)
 p.expect("inside out" in result.stderr, "no word on reversed normals")
-expect(summary(), "reversed", contact_elements=0, reversed_normals=25,
+expect(p.summary(), "reversed", contact_elements=0, reversed_normals=25,
        pairs_with_area=0)
 result = p.call("search", scene(upper(4, -0.04), lower(4)), *QUIET)
 p.expect("25 nodes overlap" in result.stderr, "no word on overlaps")
-expect(summary(), "overlap", contact_elements=25, initial_overlaps=25,
+expect(p.summary(), "overlap", contact_elements=25, initial_overlaps=25,
        largest_overlap=0.04)
 for thickness, n in (("0.07", 0), ("0.09", 25), ("5: 0.07", 0),
                      ("5: 0.09; *: 0.01", 25)):

@@ -138,8 +138,8 @@ class Program:
         for word in without:
             self.expect(word not in result.stderr,
                         f"{what}: '{word}' in:\n{result.stderr}")
-        file = self.folder / "out/summary.json"
-        return json.loads(file.read_text()) if file.exists() else {}
+        exists = (self.folder / "out/summary.json").exists()
+        return self.summary() if exists else {}
 
     def run_scene(self, scene, settings=(), codes=0, words=(), without=(),
                   ranks=0, more=()):
@@ -167,8 +167,10 @@ class Program:
         return self.solve(scene, *set_words(settings), ranks=ranks)
 
     def results(self):
-        summary = json.loads((self.folder / "out/summary.json").read_text())
-        return summary, self.table("levels.csv")
+        return self.summary(), self.table("levels.csv")
+
+    def summary(self, folder="out"):
+        return json.loads((self.folder / folder / "summary.json").read_text())
 
     def table(self, name):
         with open(self.folder / "out" / name) as file:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes of two bodies that turn as a whole or slide on each other, and how
 Newton's method does in them."""
-import csv
 import math
 
 from block_scene import block, pair, section, solid
@@ -11,10 +10,7 @@ RUBBER = ["Material = neo-hooke", "Young modulus = 1", "Poisson ratio = 0.3"]
 
 
 def newton(p, load_step):
-    with open(p.folder / "out/newton.csv", encoding="utf-8") as file:
-        rows = [{key: float(value) for key, value in row.items()}
-                for row in csv.DictReader(file)]
-    return [row for row in rows if row["load_step"] == load_step]
+    return [row for row in p.table("newton.csv") if row["load_step"] == load_step]
 
 
 # Two blocks are pressed until t = 0.2, then turned about the origin, as a whole
