@@ -62,7 +62,7 @@ namespace abut::app
         {"l2_error", "error of the displacement, L2 norm"},
         {"h1_error", "error of the gradient, L2 norm"},
         {"energy_norm_error", "error in the energy norm"},
-        {"estimate", "estimated error, energy norm"},
+        {"relative_estimate", "estimated error / solution, energy norm"},
         {"estimated_error", "estimated relative error"},
         {"target_error", "target of the relative error"},
         {"nodes", "nodes of the secondary surface"},

@@ -61,6 +61,13 @@ namespace abut::app
         {{"penalty", penalty}, {"least", softest}, {"largest", stiffest}}));
   }
 
+  void report_estimate(Report &report, const double estimate, const double norm)
+  {
+    report.set("estimate", estimate);
+    if (norm > 0.)
+      report.set("relative_estimate", estimate / norm);
+  }
+
   Message diagnose_solver_failure(const Message &message, const double penalty)
   {
     if (penalty <= stiffest)

@@ -24,6 +24,10 @@ namespace abut::app
    * sensible range. */
   void diagnose_penalty(Report &report, const MethodParameters &method);
 
+  /** The error estimate of a mesh into the summary; relative to the energy norm
+   * of the solution where @p norm is not 0. */
+  void report_estimate(Report &report, double estimate, double norm);
+
   /** What a linear solver has said when it failed; blames the penalty (0: none)
    * where that leaves too few digits for the rest of the matrix. */
   Message diagnose_solver_failure(const Message &message, double penalty);

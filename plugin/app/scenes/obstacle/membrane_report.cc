@@ -140,7 +140,8 @@ namespace abut::app
     compare("energy", last.energy, parameters.exact_energy);
     compare("contact_force", last.force, parameters.exact_force);
     if (last.estimate)
-      report.set("estimate", *last.estimate);
+      report_estimate(report, *last.estimate,
+                      run.control.is_on() ? 0. : model.solution_norm());
   }
 
   template <int dim> void MembraneReport<dim>::report_shares() const

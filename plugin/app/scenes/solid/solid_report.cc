@@ -575,7 +575,8 @@ namespace abut::app
       report.set("nodal_error", last.errors->largest_node);
     }
     if (last.estimate)
-      report.set("estimate", *last.estimate);
+      report_estimate(report, *last.estimate,
+                      run.control.is_on() ? 0. : model.solution_norm());
     if (last.estimate && last.errors)
       report.set("effectivity", *last.estimate / *last.errors->energy);
     if (!std::isnan(parameters.exact_energy))
