@@ -824,6 +824,10 @@ namespace abut::app
                    + std::to_string(model.problem().dof_handler.n_dofs())
                    + " unknowns"
                    + (state.is_last_mesh() ? "" : " on the first mesh"));
+      if (state.settings.refinement.adaptive_cycles > 0
+          && state.settings.load_steps.steps > 1)
+        report.print("  the mesh is adapted to the first load step and kept "
+                     "for the others");
       solve_start();
       if (model.has_contact())
         diagnose_penalty(report, state.settings.method);
