@@ -461,8 +461,8 @@ namespace
     input.contact_traction = nullptr;
     // outward normal (0, -1): penetration 0.01, then pressure 2 at gap 0.03
     const la::Vector pressure = problem.interpolate("0; -2");
-    const la::Vector into = problem.interpolate("-0.01; -0.01");
-    const la::Vector open = problem.interpolate("0.03; 0.03");
+    const la::Vector into = problem.interpolate("-0.01; 1");
+    const la::Vector open = problem.interpolate("0.03; 1");
     input.secondary = {2};
     input.pressure = &pressure;
     input.gap = &into;
@@ -473,6 +473,32 @@ namespace
                  "pressure across a gap");
     input.secondary = {1};
     Expect::near(estimate(input), 0, 1e-13, "other sides");
+  }
+
+  /** At the end of a surface with constraints. A gap of 0.16 at x = 0 alone is
+   * a parabola on the first facet [0, 1/4], with values down to -0.02. Where
+   * all nodes have constraints this is a penetration: with s = 4 x
+   *   E/h int g^2 = E 0.16^2 int_{1/2}^1 (1 - s)^2 (1 - 2s)^2 ds,
+   * which Gauss' rule of three points takes for (1 - sqrt(0.6))^2 / 24. Where
+   * the nodes behind x = 0 have none it is nothing. */
+  void estimator_at_the_end_of_contact()
+  {
+    Problem<2> problem(2, 2);
+    unit_cube(problem, 2);
+    const Materials<2> materials = everywhere<2>();
+    const la::Vector nothing = problem.interpolate("0; 0");
+    const la::Vector whole = problem.interpolate("0.16*(x < 0.1); 1");
+    const la::Vector end = problem.interpolate("0.16*(x < 0.1); x < 0.1");
+    ElasticEstimatorInput<2> input{problem.mapping, problem.dof_handler,
+                                   nothing, materials};
+    input.secondary = {2};
+    input.pressure = &nothing;
+    input.gap = &whole;
+    Expect::near(estimate(input),
+                 0.16 * (1 - std::sqrt(0.6)) * std::sqrt(7. / 24.), 1e-13,
+                 "penetration between nodes");
+    input.gap = &end;
+    Expect::near(estimate(input), 0, 1e-13, "end of the constraints");
   }
 
   /** A load of 1 + x per area on y = 0 (and of 2 on z = 0 in space), given as
@@ -700,6 +726,7 @@ main(int argc, char **argv)
                         }
                       estimator_in_space();
                       estimator_terms();
+                      estimator_at_the_end_of_contact();
                       traction<3>(1, PlaneModel::strain);
                       traction<3>(2, PlaneModel::strain);
                       effectivity<3>(PlaneModel::strain, 1, 2);

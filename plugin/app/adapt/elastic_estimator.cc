@@ -7,12 +7,16 @@
 #include "app/physics/cell_volume.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace abut::app
 {
   namespace
   {
+    /** Of values 1 at all nodes. */
+    constexpr double round_off = 1e-6;
+
     template <int dim> class ElasticResidual : public ResidualTerms<dim, dim>
     {
     public:
@@ -113,6 +117,9 @@ namespace abut::app
         double sum = 0;
         for (unsigned int q = 0; q < n; ++q)
         {
+          // Where a node of the facet has no constraint the gap is unknown.
+          if (std::abs(gaps[q][1] - 1.) > round_off)
+            continue;
           const double p = pressures[q] * points.normal_vector(q);
           const double g = gaps[q][0];
           const double term =

@@ -47,9 +47,10 @@ namespace abut::app
     std::set<dealii::types::boundary_id> contact = {};
     const la::Vector *contact_traction = nullptr;
     /** Boundary ids of the secondary sides, with the nodal fields p n (n:
-     * outward normal) and g, the latter in each component, as
-     * ContactResults::pressure() and gap() make them; null: without the two
-     * terms that they make. */
+     * outward normal) of ContactResults::pressure() and g of mark_rows(); null:
+     * without the two terms that they make. Facets with a node without a
+     * constraint have no such terms: their gap is unknown, and an
+     * interpolation of degree 2 would overshoot into a penetration. */
     std::set<dealii::types::boundary_id> secondary = {};
     const la::Vector *pressure = nullptr;
     const la::Vector *gap = nullptr;

@@ -444,7 +444,6 @@ namespace abut::app
             normal,
             along,
             elasticity.ghosted_field(run.contact.results().pressure()),
-            elasticity.ghosted_field(run.contact.results().gap()),
             elasticity.ghosted_field(mark_rows(
                 elasticity.dof_handler, run.contact.results().gap(), status)),
             elasticity.ghosted_field(status),
@@ -478,7 +477,7 @@ namespace abut::app
                              || abut_law_needs_stress(run.method.options.law);
       const bool is_error =
           run.method.user_law == nullptr && (exact_law || !run.control.is_on());
-      input.gap = is_error ? &fields.gap : nullptr;
+      input.gap = is_error ? &fields.row_gap : nullptr;
     }
     return estimate_elastic_error(input, squared);
   }

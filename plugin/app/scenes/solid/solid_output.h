@@ -20,7 +20,6 @@ namespace abut::app
     la::Vector normal;   ///< the part of it that is of pressures
     la::Vector along;    ///< the rest, friction; empty if not told apart
     la::Vector pressure; ///< p n on the secondary side
-    la::Vector gap;      ///< in all components; 0 without a row
     la::Vector row_gap;  ///< of mark_rows()
     la::Vector status;   ///< in all components
     la::Vector slip;     ///< of the step, on the secondary side
