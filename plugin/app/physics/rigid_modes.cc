@@ -93,6 +93,8 @@ namespace abut::app
         any = any || holds[i];
       }
       RigidFreedom result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result.translations.push_back(n == 1 ? d == 1 && !holds[0] : !holds[d]);
       if (!any)
       {
         result.n_modes = n;

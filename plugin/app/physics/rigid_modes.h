@@ -18,6 +18,7 @@ namespace abut::app
   struct RigidFreedom
   {
     unsigned int n_modes = 0;
+    std::vector<bool> translations; ///< by direction, whether it is free
     /** Directions of a free translation, "x", or "a rotation". */
     std::string description;
   };

@@ -329,6 +329,13 @@ namespace abut::app
     virtual std::optional<double> work_on_gaps(const la::Vector &forces,
                                                double work) const = 0;
 
+    /** Why loads and equilibrium alone make the contact force of the present
+     * solution, on every mesh; empty if they do not. */
+    virtual std::string why_force_is_prescribed() const
+    {
+      return "";
+    }
+
     /** Errors against the exact solution, if there is one. */
     virtual std::optional<ErrorNorms> errors() const = 0;
     virtual bool has_exact_solution() const = 0;

@@ -159,6 +159,8 @@ namespace abut::app
     /** The largest diameter on the present mesh. Collective. */
     double size_of_cells();
     void judge();
+    /** Throws InputError if the target is a force that loads prescribe. */
+    void refuse_prescribed_force() const;
     void finish_result();
 
     ContactRunState<dim> &state;

@@ -2,6 +2,7 @@
 // What a run measures of each answer, and whether it may be used.
 #include "contact_run.h"
 
+#include "app/input/input_error.h"
 #include "diagnosis.h"
 #include "name_parameter.h"
 #include "shim/examination_limits.h"
@@ -39,8 +40,24 @@ namespace abut::app
           && state.method.user_law == nullptr)
         evidence.law = measures.complementarity_error;
       evidence.contact_force = measures.force;
+      refuse_prescribed_force();
     }
     state.present.error_parts = state.control.judge(evidence);
+  }
+
+  /* No mesh changes such a force, and the first one would meet any target. */
+  template <int dim> void ContactRun<dim>::refuse_prescribed_force() const
+  {
+    if (state.settings.refinement.target_quantity
+        != TargetQuantity::contact_force)
+      return;
+    const std::string why = model.why_force_is_prescribed();
+    if (!why.empty())
+      throw InputError("Refinement/Target quantity",
+                       "The loads prescribe the contact force: " + why
+                           + ", so it is the same on every mesh and does not "
+                             "show the error of the mesh. Set it to energy "
+                             "norm.");
   }
 
   template <int dim> void ContactRun<dim>::add_missed_contact()

@@ -404,6 +404,75 @@ namespace abut::app
     return lines;
   }
 
+  template <int dim>
+  bool SolidModel<dim>::may_rotate(const unsigned int body) const
+  {
+    for (unsigned int k = 0; k < parts.size(); ++k)
+    {
+      const auto &free = freedom[k].translations;
+      if (parts[k].body == body
+          && freedom[k].n_modes > std::count(free.begin(), free.end(), true))
+        return true;
+    }
+    return false;
+  }
+
+  template <int dim>
+  std::vector<FreeBody<dim>> SolidModel<dim>::free_bodies() const
+  {
+    using Ids = std::set<boundary_id>;
+    const auto part_of = [](const Ids &side, const Ids &surface)
+    {
+      const auto n = std::count_if(side.begin(), side.end(),
+                                   [&](const boundary_id id)
+                                   { return surface.count(id) > 0; });
+      return n == 0 ? 0. : n == std::ptrdiff_t(side.size()) ? 1. : NAN;
+    };
+    std::vector<FreeBody<dim>> result;
+    for (unsigned int k = 0; k < parts.size(); ++k)
+    {
+      FreeBody<dim> body{"supports leave " + parts[k].name() + " "
+                             + freedom[k].description,
+                         {},
+                         {}};
+      for (unsigned int d = 0; d < dim; ++d)
+        body.free[d] = freedom[k].translations[d] ? 1. : 0.;
+      for (const ContactPair<dim> &pair : pairs->pairs())
+      {
+        const double secondary = part_of(pair.secondary, parts[k].ids);
+        const double primary = part_of(pair.primary, parts[k].ids);
+        body.sides.push_back(secondary * primary != 0. ? NAN
+                                                       : secondary - primary);
+      }
+      result.push_back(std::move(body));
+    }
+    for (std::size_t o = 0; o < parameters.obstacles.size(); ++o)
+    {
+      FreeBody<dim> body{
+          "forces drive obstacle " + std::to_string(o + 1), {}, {}};
+      for (unsigned int d = 0; d < dim; ++d)
+        body.free[d] = driven.is_driven(o) && driven.is_free(o, d) ? 1. : 0.;
+      for (std::size_t i = 0; i < pairs->pairs().size(); ++i)
+        body.sides.push_back(pairs->obstacle_of(i) == o ? -1. : 0.);
+      result.push_back(std::move(body));
+    }
+    return result;
+  }
+
+  template <int dim>
+  std::string SolidModel<dim>::why_force_is_prescribed() const
+  {
+    if (motion)
+      return "";
+    const std::vector<FreeBody<dim>> bodies = free_bodies();
+    std::string text;
+    for (const FreeBody<dim> *body :
+         bodies_in_balance(bodies, run.contact.results().pairs(),
+                           run.contact.results().measures().force))
+      text += (text.empty() ? "" : ", ") + body->name;
+    return text;
+  }
+
   template <int dim> bool SolidModel<dim>::tells_friction_apart() const
   {
     return pairs->has_friction()

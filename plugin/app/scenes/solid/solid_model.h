@@ -7,6 +7,7 @@
 #include "app/scenes/moving_model.h"
 #include "body_parts.h"
 #include "driven_obstacles.h"
+#include "prescribed_forces.h"
 #include "solid_functions.h"
 #include "solid_output.h"
 #include "solid_pairs.h"
@@ -107,6 +108,7 @@ namespace abut::app
     /** With the initial gaps as the rows have them. */
     std::optional<double> work_on_gaps(const la::Vector &forces,
                                        double work) const override;
+    std::string why_force_is_prescribed() const override;
     std::optional<ErrorNorms> errors() const override;
     bool has_exact_solution() const override
     {
@@ -151,6 +153,9 @@ namespace abut::app
     /** Rigid motions that the supports leave to each part of a body: a line
      * each. */
     std::vector<std::string> rigid_motions() const;
+
+    /** Whether supports leave a part of a body a rotation. */
+    bool may_rotate(unsigned int body) const;
 
     /** Names of the discretisations of all pairs. */
     std::string discretisations() const;
@@ -218,6 +223,9 @@ namespace abut::app
     double part_of_flight() const;
     /** Whether refinement keeps the chords of a round side in contact. */
     void look_for_chords();
+    /** What supports leave a translation: parts of bodies, and obstacles that
+     * forces drive. */
+    std::vector<FreeBody<dim>> free_bodies() const;
     bool is_held(const BodyPart<dim> &part,
                  const std::vector<PairResult<dim>> &results) const;
 
