@@ -552,10 +552,8 @@ namespace abut::solve
     else if (iteration_.turns && !free.slips)
       deferred_ = {motion};
     else if (!free.slips || !pivot.motions.empty())
-      unsupported_.fail_in_contact(free.works && free.motions.size() > 1
-                                       ? Combinations{motion}
-                                       : free.motions,
-                                   n_resisting(*rows_, free.resisting.now));
+      unsupported_.fail_driven({motion}, *rows_,
+                               n_resisting(*rows_, free.resisting.now));
     else
       slipping_ = motion;
   }
@@ -671,7 +669,7 @@ namespace abut::solve
     }
     const double pressed = std::count(resists.begin(), resists.end(), 1);
     if (!deferred_.empty() && MPI::sum(pressed, rows_->communicator()) == 0.)
-      unsupported_.fail_in_contact(deferred_, 0.);
+      unsupported_.fail_driven(deferred_, *rows_, 0.);
     std::vector<FreeMotion> result;
     for (const Combination &motion :
          unresisted(unsupported_.free_motions(*rows_, resists)))

@@ -643,6 +643,28 @@ namespace abut::solve
          "or a prescribed displacement instead of a force");
   }
 
+  void UnsupportedBodies::fail_driven(const std::vector<Combination> &free,
+                                      const PointOperator &rows,
+                                      const double n_rows) const
+  {
+    constexpr double parallel = 1e-6;
+    const std::vector<double> change = gap_change(free[0]);
+    double opening = 0.;
+    for (int i = 0; i < rows.n_rows(); ++i)
+      opening += !rows.is_tangent(i) && change[i] > parallel;
+    opening = MPI::sum(opening, rows.communicator());
+    if (opening == 0.)
+      fail_in_contact(free, n_rows);
+    std::ostringstream text;
+    text << "Bodies without supports: " << describe(free[0])
+         << ", and the loads push it there. This motion opens " << opening
+         << (opening == 1. ? " gap" : " gaps")
+         << ", closes none and meets no support. A sign is likely to be wrong: "
+            "of a load, or of a radius, formula or normal of the other "
+            "surface. Otherwise support the body in that direction.";
+    throw_failure(free[0], coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
+  }
+
   void UnsupportedBodies::fail_slipping(const Combination &free) const
   {
     throw_failure(free,

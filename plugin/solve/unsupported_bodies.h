@@ -136,6 +136,12 @@ namespace abut::solve
     /** The same for rows in contact. */
     [[noreturn]] void fail_in_contact(const std::vector<Combination> &free,
                                       double n_rows) const;
+    /** The same, the first motion in the direction in which loads drive it, and
+     * stopped by no gap of @p rows: if it opens gaps, a sign is likely to be
+     * wrong. Collective. */
+    [[noreturn]] void fail_driven(const std::vector<Combination> &free,
+                                  const PointOperator &rows,
+                                  double n_rows) const;
     /** The same F42: friction is too weak. */
     [[noreturn]] void fail_slipping(const Combination &free) const;
 
