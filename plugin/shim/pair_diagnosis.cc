@@ -5,6 +5,7 @@
 #include <abut/dealii/coded.h>
 #include <abut/pair_checks.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -39,6 +40,25 @@ namespace abut::shim
       result.below = dealii::Utilities::MPI::min(result.below, communicator);
       return result;
     }
+
+    /** A sentence where sizes show that meshes may have different units. */
+    template <int dim>
+    std::string other_unit(const SurfaceSide<dim> &secondary,
+                           const SurfaceSide<dim> &primary)
+    {
+      constexpr double different = 100.;
+      const double one = secondary.everywhere.extent,
+                   other = primary.everywhere.extent;
+      const double ratio = std::max(one, other) / std::min(one, other);
+      if (!(ratio >= different))
+        return "";
+      std::ostringstream text;
+      text << " The " << (one > other ? "secondary" : "primary")
+           << " surface is " << ratio
+           << " times as large as the other one: both meshes need the same "
+              "unit of length (Mesh/Scale).";
+      return text.str();
+    }
   } // namespace
 
   template <int dim>
@@ -61,7 +81,8 @@ namespace abut::shim
     else if (opposed.above < INFINITY && opposed.above <= opposed.below)
       text << "the surfaces are too far apart: the smallest distance is "
            << opposed.above << ", the reach is " << reach
-           << ". Move the bodies together, or give the pair a larger reach.";
+           << ". Move the bodies together, or give the pair a larger reach."
+           << other_unit(secondary, primary);
     else if (opposed.below < INFINITY)
     {
       failure = ABUT_FAILURE_OVERLAP;
@@ -72,7 +93,8 @@ namespace abut::shim
                      "or a corner only, within the reach of ")
            << reach
            << ". Move them apart, or give the pair a larger reach if the "
-              "overlap is meant as interference.";
+              "overlap is meant as interference."
+           << other_unit(secondary, primary);
     }
     else
     {
@@ -87,7 +109,8 @@ namespace abut::shim
       }
       else
         text << "no point of one surface lies opposite the other. Check the "
-                "boundary ids and the position of the bodies.";
+                "boundary ids and the position of the bodies."
+             << other_unit(secondary, primary);
     }
     return coded(failure, text.str());
   }
