@@ -96,7 +96,8 @@ with --resume), 1 internal error.
 
 Read the scene, check it without solving, and print the problem on the first
 mesh: boundary ids with areas, positions and mean normals, rigid body modes that
-supports leave, obstacles, pairs, and the unknowns and memory of the run.
+supports leave, sums of the loads on each body, obstacles, pairs, and the
+unknowns and memory of the run.
 Exit code 0 without errors, else 2.
 
   --set "Section/Name=value"  override a parameter of the file; may be repeated

@@ -95,13 +95,13 @@ namespace abut::app
   {
     prepare();
     report.print("  " + model.description());
+    model.assemble();
     if (model.has_contact())
     {
       state.present.time = state.load_steps.target();
       model.problem().constraints.distribute(state.u);
       begin_contact();
       name_parameter(model, [&] { state.contact.detect(state.u); });
-      model.assemble();
       Message why = free_motion();
       while (!why.empty() && state.contact.search_farther(state.u))
         why = free_motion();

@@ -100,6 +100,12 @@ namespace abut::app
     Vector displacement(std::size_t obstacle, double time) const;
     Vector velocity(std::size_t obstacle) const;
 
+    /** Force and weight in free directions at the end of the step in work. */
+    Vector driving_force(std::size_t obstacle) const
+    {
+      return vector_of(obstacle, force);
+    }
+
     /** Force of contact in the step, of all its problems. */
     Vector contact_force(std::size_t obstacle) const;
 

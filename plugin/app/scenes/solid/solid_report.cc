@@ -6,6 +6,7 @@
 #include "app/mesh/nearest_node.h"
 #include "app/physics/components.h"
 #include "app/physics/linear_stiffness.h"
+#include "app/physics/load_resultants.h"
 #include "app/physics/volumetric_locking.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
@@ -102,10 +103,41 @@ namespace abut::app
       report.print("  obstacle " + obstacle.section.substr(9) + ": "
                    + obstacle.kind
                    + (obstacle.free.empty() ? "" : ", driven by forces"));
+    report_loads();
     if (!pairs.empty())
       report_checks();
     report_shares();
     report.set("bodies", bodies.size());
+  }
+
+  template <int dim> void SolidReport<dim>::report_loads() const
+  {
+    const bool rings = dim == 2 && parameters.plane == PlaneModel::axisymmetric;
+    const std::string at =
+        parameters.load_steps.steps > 1
+            ? " at time " + short_number(run.load_steps.target(), 6)
+            : "";
+    const auto resultants = load_resultants(elasticity, bodies.size());
+    for (unsigned int body = 0; body < bodies.size(); ++body)
+    {
+      Resultant<dim> loads = resultants[body];
+      // Radial forces balance each other around the axis.
+      if (rings)
+        loads.force[0] = 0.;
+      report.print("  " + bodies.name_of_body(body) + ": loads" + at + ": "
+                   + in_words(loads, !rings && model.may_rotate(body)));
+      report.set("load_" + std::to_string(body + 1), components(loads.force));
+    }
+    for (std::size_t o = 0; o < parameters.obstacles.size(); ++o)
+    {
+      if (!model.driven.is_driven(o))
+        continue;
+      Resultant<dim> loads;
+      loads.force = model.driven.driving_force(o);
+      loads.magnitude = loads.force.norm();
+      report.print("  obstacle " + std::to_string(o + 1) + ": loads" + at + ": "
+                   + in_words(loads, false));
+    }
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
