@@ -140,8 +140,7 @@ namespace abut::app
         output.write_nodal_values();
       if (motion)
         motion->write_table();
-      if (parameters.fields || run.options.pictures)
-        output.finish();
+      output.finish();
     }
     void report_check() override;
     void report_result(bool converged) override;

@@ -157,6 +157,12 @@ namespace abut::app
     }
     fields.faces = model.pairs->surfaces();
     contact_series.write(time(), fields);
+    write_lines(contact_values);
+  }
+
+  template <int dim>
+  void SolidOutput<dim>::write_lines(const ContactFields &contact_values) const
+  {
     if constexpr (dim == 2)
     {
       std::size_t number = 0;
@@ -223,10 +229,15 @@ namespace abut::app
 
   template <int dim> void SolidOutput<dim>::finish()
   {
-    if (!model.parameters.fields)
+    const bool fields = model.parameters.fields,
+               pictures = model.run.options.pictures;
+    if (!fields && pictures)
       write_present();
     SectionTimes::Scope scope(model.run.report.times, "output");
-    write_obstacle_surfaces(model.run.u.linfty_norm());
+    if (fields || pictures)
+      write_obstacle_surfaces(model.run.u.linfty_norm());
+    else if (!model.pairs->empty())
+      write_lines(model.contact_fields());
     write_closed_forms();
   }
 

@@ -44,8 +44,9 @@ namespace abut::app
       return numbers;
     }
 
-    /** Files of the end, from which pictures are drawn: fields of the present
-     * solution unless they are there, and surfaces of obstacles. Collective. */
+    /** Files of the end: tables of pairs; where pictures are drawn, fields of
+     * the present solution unless they are there, and surfaces of obstacles.
+     * Collective. */
     void finish();
 
     /** Surfaces of obstacles near the bodies, which have moved by up to
@@ -66,6 +67,8 @@ namespace abut::app
     double time() const;
     void write_present();
     void write_contact(const la::Vector &displacement);
+    /** Tables pair_N.csv, in 2D. */
+    void write_lines(const ContactFields &contact_values) const;
     void write_closed_forms() const;
     /** Values along the contact boundary of a pair, on rank 0. */
     std::vector<ContactLine> lines_of(const ContactPair<dim> &pair,
