@@ -240,4 +240,23 @@ p.expect("obstacle 1: plane" in result.stdout, "obstacle")
 summary, _ = p.solve_with("rigid-plate.prm", QUICK)
 p.close(float(found["expected_dofs"]), summary["dofs"], 0.15, "unknowns")
 
+# Tables of pairs are no fields: they are there without them.
+summary, _ = p.solve_with(p.folder / "two-bodies.prm", QUICK)
+p.expect(not list((p.folder / "out").glob("*.vtu")), "fields of no fields")
+pressures = [row["pressure"] for row in p.table("pair_1.csv")]
+p.expect(len(pressures) == 11 and all(abs(q - 10) < 1e-6 for q in pressures),
+         f"pressures without fields: {pressures}")
+
+# Without a number about 100 sets of fields: every second of 150 steps of 0.002.
+result = p.call("run", "impact.prm", "--output", "sets", *set_words(
+    {"Output/Every": "auto", "Output/Pictures": "false",
+     "Body 1/Mesh/Arguments": "5, 1 : 0, 0 : 1, 1 : true"}))
+times = [float(t) for t in re.findall(
+    r'timestep="([^"]+)"', (p.folder / "sets/fields.pvd").read_text())]
+p.expect("fields of one step in 2 (Output/Every)" in result.stdout,
+         f"sets of fields: {result.stdout}")
+p.expect(len(times) == 75 and all(abs(t - 0.004 * (i + 1)) < 1e-9
+                                  for i, t in enumerate(times)),
+         f"times of fields: {times}")
+
 p.finish()

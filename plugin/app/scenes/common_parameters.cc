@@ -11,6 +11,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <ostream>
 
 namespace abut::app
@@ -58,10 +59,12 @@ namespace abut::app
                        "Energy of the exact solution; nan: unknown.");
     prm.leave_subsection();
     prm.enter_subsection("Output");
-    parameter::declare(prm, "Every", "1", Patterns::Integer(1),
+    parameter::declare(prm, "Every", "auto",
+                       OrWord(Patterns::Integer(1), "auto"),
                        parameter::advanced("time steps", "10"),
                        "Time steps between two sets of fields of a motion. "
-                       "The last step is always written.");
+                       "The last step is always written. auto: about 100 sets "
+                       "in a run, or all steps where they are fewer.");
     parameter::declare(
         prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
         "Whether fields are written on every mesh, not only on the last.");
@@ -70,6 +73,25 @@ namespace abut::app
         "Whether displacement and forces at all nodes of the last mesh are "
         "written to nodal.csv, in full precision.");
     prm.leave_subsection();
+  }
+
+  FieldSteps::FieldSteps(const ParameterHandler &prm,
+                         const unsigned int n_steps)
+      : every(
+          static_cast<unsigned int>(parameter::number_or_zero(prm, "Every"))),
+        is_automatic(every == 0)
+  {
+    constexpr unsigned int most_sets = 100;
+    if (is_automatic)
+      every = std::max(1u, (n_steps + most_sets - 1) / most_sets);
+  }
+
+  std::string FieldSteps::in_words() const
+  {
+    return is_automatic && every > 1
+               ? ", fields of one step in " + std::to_string(every)
+                     + " (Output/Every)"
+               : "";
   }
 
   std::vector<ExpectedFigure> parse_expected(const std::string &text)

@@ -25,6 +25,22 @@ namespace abut::app
    * scenes with meshes have. */
   void declare_mesh_results(dealii::ParameterHandler &prm);
 
+  /** Steps of a motion whose fields are written: `Output/Every`. */
+  struct FieldSteps
+  {
+    FieldSteps() = default;
+
+    /** Of the entered section, in a motion of @p n_steps steps. */
+    FieldSteps(const dealii::ParameterHandler &prm, unsigned int n_steps);
+
+    /** A part of the description of a run, if steps are left out without the
+     * user's word. */
+    std::string in_words() const;
+
+    unsigned int every = 1;
+    bool is_automatic = false;
+  };
+
   /** The words with @p separator between them. */
   std::string joined(const std::vector<std::string> &words,
                      const std::string &separator);

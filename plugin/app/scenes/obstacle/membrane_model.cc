@@ -244,7 +244,8 @@ namespace abut::app
     std::string text = std::string(dim == 2 ? "membrane" : "scalar field")
                        + ", " + law_in_words(run.method);
     if (motion)
-      text += std::string(", in time by ") + parameters.time.scheme.name;
+      text += std::string(", in time by ") + parameters.time.scheme.name
+              + (parameters.fields ? parameters.field_steps.in_words() : "");
     return text;
   }
 
@@ -314,7 +315,7 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::write_fields()
   {
-    if (parameters.fields && this->is_written(parameters.every))
+    if (parameters.fields && this->is_written(parameters.field_steps.every))
       write_present();
   }
 

@@ -186,7 +186,7 @@ namespace abut::app
 
     prm.enter_subsection("Output");
     fields = prm.get_bool("Fields");
-    every = prm.get_integer("Every");
+    field_steps = FieldSteps(prm, load_steps.steps);
     all_levels = prm.get_bool("All levels");
     nodal_values = prm.get_bool("Nodal values");
     linear_solves = prm.get_integer("Linear solves for comparison");

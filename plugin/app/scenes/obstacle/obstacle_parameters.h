@@ -5,6 +5,7 @@
 #include "app/adapt/refinement_parameters.h"
 #include "app/input/height_map.h"
 #include "app/mesh/mesh.h"
+#include "app/scenes/common_parameters.h"
 #include "app/scenes/inertia_parameters.h"
 
 #include <abut/dealii/contact_assembler.h>
@@ -35,7 +36,7 @@ namespace abut::app
 
     // Output
     bool fields = true;
-    unsigned int every = 1; ///< step, fields
+    FieldSteps field_steps;
     bool all_levels = false;
     bool nodal_values = false;
     unsigned int linear_solves = 0;

@@ -264,7 +264,7 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::write_fields()
   {
-    if (this->is_written(parameters.every))
+    if (this->is_written(parameters.field_steps.every))
       output.write_fields();
   }
 
@@ -731,7 +731,8 @@ namespace abut::app
     if (has_large_strain())
       text += ", finite strain";
     if (motion)
-      text += std::string(", in time by ") + parameters.time.scheme.name;
+      text += std::string(", in time by ") + parameters.time.scheme.name
+              + (parameters.fields ? parameters.field_steps.in_words() : "");
     return text;
   }
 

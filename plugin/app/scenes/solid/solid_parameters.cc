@@ -314,7 +314,7 @@ namespace abut::app
 
     prm.enter_subsection("Output");
     fields = prm.get_bool("Fields");
-    every = prm.get_integer("Every");
+    field_steps = FieldSteps(prm, load_steps.steps);
     all_levels = prm.get_bool("All levels");
     nodal_values = prm.get_bool("Nodal values");
     points = prm.get("Points");

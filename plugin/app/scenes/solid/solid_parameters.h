@@ -7,6 +7,7 @@
 #include "app/mesh/body_parameters.h"
 #include "app/mesh/rigid_obstacle_parameters.h"
 #include "app/physics/material.h"
+#include "app/scenes/common_parameters.h"
 #include "app/scenes/inertia_parameters.h"
 #include "app/scenes/load_step_parameters.h"
 #include "app/scenes/pair_parameters.h"
@@ -50,7 +51,7 @@ namespace abut::app
 
     // Output
     bool fields = true;
-    unsigned int every = 1; ///< step, fields
+    FieldSteps field_steps;
     bool all_levels = false;
     bool nodal_values = false;
     std::string points;
