@@ -48,7 +48,7 @@ namespace abut
     std::string name;
 
     /** Boundary ids of the secondary surface: the one that carries the rows,
-     * usually the finer and softer side. */
+     * usually the softer side. */
     std::set<dealii::types::boundary_id> secondary;
 
     /** Boundary ids of the primary surface; empty if there is an obstacle. */

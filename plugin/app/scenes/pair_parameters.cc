@@ -23,9 +23,9 @@ namespace abut::app
     parameter::declare(
         prm, "Secondary", "", TextPattern("a list of surfaces"),
         parameter::basic("", "1: 3, 4"),
-        "Surface that carries the constraints (slave), usually the finer and "
-        "softer one: body and boundary ids, by number or name. Several bodies "
-        "are separated by semicolons.");
+        "Surface that carries the constraints (slave), usually the softer "
+        "one: body and boundary ids, by number or name. Several bodies are "
+        "separated by semicolons.");
     parameter::declare(prm, "Primary", "", TextPattern("a list of surfaces"),
                        parameter::basic("", "plate: top"),
                        "Surface that must not be penetrated (master), in the "
