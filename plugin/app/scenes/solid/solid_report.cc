@@ -789,8 +789,13 @@ namespace abut::app
       report.leave_out(
           parameters.refinement.adaptive_cycles > 0
               ? "load steps: without friction the last result depends on the "
-                "steps before by the mesh alone, which is adapted to the first "
+                "steps before by the mesh, which is adapted to the first "
                 "one; Time stepping/Number of steps = 1 adapts it to the last."
+          : run.contact.points_move()
+              ? "load steps: without friction the last result depends on the "
+                "steps before by Pair N/Reach = auto alone, which follows the "
+                "motion in a step. Set a length, and Time stepping/Number of "
+                "steps = 1 gives the same."
               : "load steps: without friction the last result does not depend "
                 "on the steps before; Time stepping/Number of steps = 1 gives "
                 "the same.");
