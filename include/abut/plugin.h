@@ -23,7 +23,7 @@ extern "C"
 
 /** Raised when the C++ classes that cross the border change: virtual functions
  * of ContactAssembler, RigidObstacle and ContactLibrary, or their arguments. */
-#define ABUT_PLUGIN_ABI 17
+#define ABUT_PLUGIN_ABI 18
 
 /** The first bytes of a stamp. */
 #define ABUT_PLUGIN_MAGIC "abut-plugin\n\r\032"

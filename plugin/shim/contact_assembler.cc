@@ -122,6 +122,12 @@ namespace abut
   }
 
   template <int dim>
+  void ContactAssembler<dim>::set_body_names(std::vector<std::string> names)
+  {
+    implementation->input.body_names = std::move(names);
+  }
+
+  template <int dim>
   void ContactAssembler<dim>::set_axisymmetric(const bool axisymmetric)
   {
     implementation->input.axisymmetric = axisymmetric;

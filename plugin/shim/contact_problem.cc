@@ -635,6 +635,7 @@ namespace abut::shim
       system.bodies = make_solver_space(host.mapping(), host.dof_handler(),
                                         host.constraints(), surfaces != nullptr,
                                         parameters, host.vertex_origins());
+      system.bodies->names = input.body_names;
       system.bodies->reuses_factors = moves();
     }
     return *system.bodies;

@@ -46,6 +46,7 @@ namespace abut::shim
     std::vector<ContactPair<dim>> pairs;
     bool has_pairs = false; ///< they were given, and may be empty
     bool axisymmetric = false;
+    std::vector<std::string> body_names;
     MethodParameters method;
     SearchParameters search;
     SolverParameters solver;

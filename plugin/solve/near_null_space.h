@@ -52,7 +52,7 @@ namespace abut::solve
     /** [owned] part of the volume of the mesh that belongs to the node of each
      * unknown; empty: the same for all. */
     CommonArray<double> share;
-    /** [n_bodies] for messages; empty: body 1, body 2, ... */
+    /** [n_bodies] for messages; those without one: body 1, body 2, ... */
     std::vector<std::string> names;
     /** The coarser meshes, for geometric multigrid; null: not known. */
     std::shared_ptr<const MeshHierarchy> meshes;

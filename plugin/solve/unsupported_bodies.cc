@@ -497,8 +497,8 @@ namespace abut::solve
 
   std::string UnsupportedBodies::name(const unsigned int body) const
   {
-    return space_.names.empty() ? "body " + std::to_string(body + 1)
-                                : "the body '" + space_.names[body] + "'";
+    return body < space_.names.size() ? space_.names[body]
+                                      : "body " + std::to_string(body + 1);
   }
 
   double UnsupportedBodies::smallest_radius() const

@@ -206,6 +206,12 @@ namespace abut
      * Not collective. */
     virtual void set_obstacle(const Obstacle<dim> &obstacle);
 
+    /** Names of the bodies for messages, such as `the tyre`, in the order of
+     * the connected parts of the mesh: by their first cells of level 0. Empty,
+     * the default: `body 1`, `body 2`, ... Takes effect at the next reinit().
+     * Not collective. */
+    virtual void set_body_names(std::vector<std::string> names);
+
     /** How the surfaces of pairs are searched. Takes effect at detect(). Not
      * collective. */
     virtual void set_search_parameters(const SearchParameters &search);

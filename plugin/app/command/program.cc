@@ -19,16 +19,19 @@
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
 
+#include <fnmatch.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <new>
 #include <optional>
-#include <regex>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace abut::app
 {
@@ -220,24 +223,43 @@ namespace abut::app
     }
 
     /** Files of an earlier run that pages and pictures would take for those of
-     * this one: the problem, and the results. */
-    const char *const of_problem =
-        "(parameters|outline)\\.json|obstacles\\.vtu";
-    const char *const of_results =
-        "(levels|steps|newton|motion|masses|sweep|nodal|candidates"
-        "|pair_\\d+(_closed_form)?)\\.csv|(fields|contact)\\.pvd"
-        "|(fields|contact)_\\d+(\\.\\d+)?\\.p?vtu|(primary|secondary)\\.vtu"
-        "|(bodies|tractions|convergence|motion|displacement|active-set|energy"
-        "|penalty|lagrangian|path|search|detection)\\.(svg|png)|report\\.html";
+     * this one, as patterns of fnmatch(): the problem, and the results. */
+    using Patterns = std::vector<std::string>;
+    const Patterns of_problem = {"parameters.json", "outline.json",
+                                 "obstacles.vtu"};
 
-    void remove_files(const std::filesystem::path &folder, const char *pattern)
+    Patterns of_results()
+    {
+      Patterns all = {"pair_[0-9]*.csv",     "fields.pvd",
+                      "contact.pvd",         "fields_[0-9]*.vtu",
+                      "fields_[0-9]*.pvtu",  "contact_[0-9]*.vtu",
+                      "contact_[0-9]*.pvtu", "primary.vtu",
+                      "secondary.vtu",       "report.html"};
+      for (const char *table : {"levels", "steps", "newton", "motion", "masses",
+                                "sweep", "nodal", "candidates"})
+        all.push_back(std::string(table) + ".csv");
+      for (const char *picture :
+           {"bodies", "tractions", "convergence", "motion", "displacement",
+            "active-set", "energy", "penalty", "lagrangian", "path", "search",
+            "detection"})
+        for (const char *format : {".svg", ".png"})
+          all.push_back(std::string(picture) + format);
+      return all;
+    }
+
+    void remove_files(const std::filesystem::path &folder,
+                      const Patterns &patterns)
     {
       std::error_code ignored;
-      const std::regex names(pattern);
       std::vector<std::filesystem::path> found;
       for (const auto &file :
            std::filesystem::directory_iterator(folder, ignored))
-        if (std::regex_match(file.path().filename().string(), names))
+        if (std::any_of(patterns.begin(), patterns.end(),
+                        [&file](const std::string &pattern) {
+                          return fnmatch(pattern.c_str(),
+                                         file.path().filename().c_str(), 0)
+                                 == 0;
+                        }))
           found.push_back(file.path());
       for (const std::filesystem::path &file : found)
         std::filesystem::remove(file, ignored);
@@ -261,7 +283,7 @@ namespace abut::app
                 status.begin();
                 remove_files(options.output_folder, of_problem);
                 if (!line.resume)
-                  remove_files(options.output_folder, of_results);
+                  remove_files(options.output_folder, of_results());
                 write_file(options.output_folder / "parameters.json",
                            loaded.parameters_json());
               });

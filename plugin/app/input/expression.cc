@@ -20,11 +20,7 @@ namespace abut::app
   {
     using Constants = std::map<std::string, double>;
 
-    const Constants &constants()
-    {
-      static const Constants all = {{"pi", 3.14159265358979323846}};
-      return all;
-    }
+    const Constants::value_type pi = {"pi", 3.14159265358979323846};
 
     /** deal.II prints the parser's message on std::cerr before it throws;
      * the program wants to print it once, with file and parameter. */
@@ -99,8 +95,10 @@ namespace abut::app
     template <int dim>
     std::unique_ptr<dealii::FunctionParser<dim>>
     make_parser(const std::vector<std::string> &formulas,
-                const std::string &text, const std::string &parameter)
+                const std::string &text, const std::string &parameter,
+                Constants constants)
     {
+      constants.insert(pi);
       const SilentErrorStream silence;
       auto parser = std::make_unique<dealii::FunctionParser<dim>>(
           static_cast<unsigned int>(formulas.size()));
@@ -108,7 +106,7 @@ namespace abut::app
       {
         parser->initialize(dealii::FunctionParser<dim>::default_variable_names()
                                + ",t",
-                           formulas, constants(), true);
+                           formulas, constants, true);
         for (unsigned int c = 0; c < formulas.size(); ++c)
           parser->value(dealii::Point<dim>(), c);
       }
@@ -190,7 +188,8 @@ namespace abut::app
   template <int dim>
   Expression<dim>::Expression(const std::string &text,
                               const std::string &parameter,
-                              const unsigned int n_components)
+                              const unsigned int n_components,
+                              const std::map<std::string, double> &constants)
       : dealii::Function<dim>(n_components),
         formula(text),
         parameter_name(parameter),
@@ -211,7 +210,7 @@ namespace abut::app
                          + misread_hint(text));
     for (const std::string &formula : formulas)
       check_one_formula(formula, text, parameter);
-    auto all = make_parser<dim>(formulas, text, parameter);
+    auto all = make_parser<dim>(formulas, text, parameter, constants);
 
     bool any_varies = false;
     const std::set<std::string> coordinates = coordinate_names<dim>();

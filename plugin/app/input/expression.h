@@ -9,6 +9,7 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/function_parser.h>
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -32,11 +33,13 @@ namespace abut::app
   public:
     /** @param text the formula(s)
      * @param parameter full name of the parameter that it came from
+     * @param constants names of values that it may contain, in addition to pi
      *
      * Throws InputError that names the parameter and quotes the formula and
      * the parser's message with its position. Not collective. */
     Expression(const std::string &text, const std::string &parameter,
-               unsigned int n_components = 1);
+               unsigned int n_components = 1,
+               const std::map<std::string, double> &constants = {});
 
     double value(const dealii::Point<dim> &point,
                  unsigned int component = 0) const override;

@@ -236,12 +236,6 @@ namespace abut::app
     /** The parameter that a message about contact belongs to. */
     virtual std::string parameter_of(const Message &message) const = 0;
 
-    /** A message of a solver with the scene's names of bodies. */
-    virtual Message with_names(const Message &message) const
-    {
-      return message;
-    }
-
     /** The parameter that a message about a body without support
      * belongs to. */
     virtual std::string support_of(const Message &) const

@@ -167,7 +167,7 @@ namespace abut::app
     }
     catch (const SolverFailure &failure)
     {
-      return model.with_names(failure.message());
+      return failure.message();
     }
     return "";
   }
@@ -390,11 +390,10 @@ namespace abut::app
               + counted(state.present.steps, "linear system", "linear systems")
               + ": " + contact.explanation + ".");
     case NewtonReason::linear_solve:
-      return diagnose_solver_failure(model.with_names(result.explanation),
+      return diagnose_solver_failure(result.explanation,
                                      contact.progress.penalty);
     default:
-      return coded(result.explanation.failure,
-                   uncoded(model.with_names(result.explanation)));
+      return coded(result.explanation.failure, uncoded(result.explanation));
     }
   }
 

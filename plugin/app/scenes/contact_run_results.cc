@@ -130,7 +130,6 @@ namespace abut::app
   {
     for (BodyMotion &motion : examination.motions)
     {
-      motion.text = model.with_names(motion.text).text;
       const std::string body = "body_" + std::to_string(motion.body + 1);
       const double *const along = &motion.translation[0];
       report.set(body + "_moved", std::vector<double>(along, along + dim));
@@ -161,7 +160,6 @@ namespace abut::app
     std::vector<ContactFinding> &findings = examination.findings;
     for (ContactFinding &finding : findings)
     {
-      finding.text = model.with_names(finding).text;
       if (finding.failure == ABUT_FAILURE_LARGE_STRAIN && finding.is_error)
         finding.text += " If such strains are meant, set Solid/Accept strains "
                         "beyond linear theory.";

@@ -4,7 +4,6 @@
 #include "shim/bodies.h"
 
 #include <map>
-#include <regex>
 #include <sstream>
 
 namespace abut::app
@@ -47,33 +46,10 @@ namespace abut::app
     return parts;
   }
 
-  template <int dim>
-  Message with_names(const std::vector<BodyPart<dim>> &parts, Message message)
-  {
-    const std::string text = message.text;
-    static const std::regex counted("body ([0-9]+) can ");
-    std::string result;
-    auto from = text.begin();
-    std::smatch found;
-    for (; std::regex_search(from, text.end(), found, counted);
-         from = found[0].second)
-    {
-      const std::size_t number = std::stoul(found[1]);
-      result.append(from, found[0].first);
-      result += number >= 1 && number <= parts.size()
-                    ? parts[number - 1].name() + " can "
-                    : found[0].str();
-    }
-    message.text = result.append(from, text.end());
-    return message;
-  }
-
   template struct BodyPart<2>;
   template struct BodyPart<3>;
   template std::vector<BodyPart<2>>
   find_parts(const dealii::Triangulation<2> &);
   template std::vector<BodyPart<3>>
   find_parts(const dealii::Triangulation<3> &);
-  template Message with_names(const std::vector<BodyPart<2>> &, Message);
-  template Message with_names(const std::vector<BodyPart<3>> &, Message);
 } // namespace abut::app

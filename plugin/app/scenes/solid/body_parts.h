@@ -36,11 +36,6 @@ namespace abut::app
   template <int dim>
   std::vector<BodyPart<dim>>
   find_parts(const dealii::Triangulation<dim> &triangulation);
-
-  /** A message of a solver, which counts parts, with the bodies of the scene.
-   */
-  template <int dim>
-  Message with_names(const std::vector<BodyPart<dim>> &parts, Message message);
 } // namespace abut::app
 
 #endif

@@ -170,6 +170,10 @@ namespace abut::app
       held[id] = support.components;
     const shim::BodyNumbers<dim> numbers(this->triangulation);
     parts = find_parts(this->triangulation);
+    std::vector<std::string> names;
+    for (const BodyPart<dim> &part : parts)
+      names.push_back(part.name());
+    assembler.set_body_names(std::move(names));
     freedom = rigid_freedom<dim>(
         elasticity.mapping, elasticity.dof_handler, parts.size(),
         [&numbers](const auto &cell) { return numbers.of(cell); },

@@ -80,10 +80,6 @@ namespace abut::app
       return pairs->parameter_of(message);
     }
     std::string support_of(const Message &message) const override;
-    Message with_names(const Message &message) const override
-    {
-      return app::with_names(parts, message);
-    }
     void look_at_rows(bool is_last) override;
     /** Names a body that nothing holds. */
     Message refuse() const override;

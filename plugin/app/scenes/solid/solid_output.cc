@@ -11,8 +11,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
-#include <iomanip>
-#include <regex>
+#include <map>
 #include <sstream>
 
 namespace abut::app
@@ -26,10 +25,12 @@ namespace abut::app
     {
       ClosedForm(const PairParameters &pair, const PairResult<2> &result,
                  const double time)
-          : pressure(formula(pair.closed_pressure, result),
-                     pair.parameter("Closed form of pressure")),
-            friction(formula(pair.closed_friction, result),
-                     pair.parameter("Closed form of friction"))
+          : pressure(formula(pair.closed_pressure),
+                     pair.parameter("Closed form of pressure"), 1,
+                     forces(result)),
+            friction(formula(pair.closed_friction),
+                     pair.parameter("Closed form of friction"), 1,
+                     forces(result))
       {
         pressure.set_time(time);
         friction.set_time(time);
@@ -38,21 +39,16 @@ namespace abut::app
       Expression<2> pressure, friction;
 
     private:
-      /** With numbers in place of the forces. */
-      static std::string formula(std::string text, const PairResult<2> &result)
+      static std::map<std::string, double> forces(const PairResult<2> &result)
       {
-        for (const auto &[name, value] :
-             {std::make_pair("Fx", result.secondary_force[0]),
-              std::make_pair("Fy", result.secondary_force[1]),
-              std::make_pair("Qx", result.secondary_friction[0]),
-              std::make_pair("Qy", result.secondary_friction[1])})
-        {
-          std::ostringstream number;
-          number << '(' << std::setprecision(17) << value << ')';
-          text = std::regex_replace(
-              text, std::regex(std::string("\\b") + name + "\\b"),
-              number.str());
-        }
+        return {{"Fx", result.secondary_force[0]},
+                {"Fy", result.secondary_force[1]},
+                {"Qx", result.secondary_friction[0]},
+                {"Qy", result.secondary_friction[1]}};
+      }
+
+      static std::string formula(const std::string &text)
+      {
         return text.empty() ? "0" : text;
       }
     };
