@@ -57,7 +57,7 @@ LABELS = {
     "energy_norm_error": ("error, energy norm", "", "(force·length)^(1/2)"),
     "nodal_error": ("largest nodal error", "", "length"),
     "energy_error": ("error of the energy", "", "force·length"),
-    "estimate": ("estimated error, energy norm", r"\eta",
+    "estimate": ("estimated error", r"\eta",
                  "(force·length)^(1/2)"),
     "relative_estimate": ("estimated error / solution, energy norm", "", ""),
     "estimated_error": ("estimated relative error", "", ""),
