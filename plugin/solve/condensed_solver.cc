@@ -418,7 +418,7 @@ namespace abut::solve
   std::string CondensedSolver::method() const
   {
     if (is_direct())
-      return DirectSolver::name();
+      return DirectSolver::name(*stiffness_);
     return krylov_method() + ", " + preconditioner();
   }
 

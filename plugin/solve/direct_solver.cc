@@ -23,13 +23,24 @@ namespace abut::solve
     }
   } // namespace
 
-  std::string DirectSolver::name()
+  bool takes_mumps(const la::Matrix &matrix)
   {
-    return has_mumps() ? "direct (MUMPS)" : "direct (KLU)";
+    // For displacements in space both take as long then, in the plane later.
+    constexpr dealii::types::global_dof_index small = 3000;
+    return has_mumps()
+           && (matrix.m() > small
+               || dealii::Utilities::MPI::n_mpi_processes(
+                      matrix.get_mpi_communicator())
+                      > 1);
+  }
+
+  std::string DirectSolver::name(const la::Matrix &matrix)
+  {
+    return takes_mumps(matrix) ? "direct (MUMPS)" : "direct (KLU)";
   }
 
   DirectSolver::DirectSolver(const la::Matrix &matrix)
-      : factors_(make_factors(matrix))
+      : factors_(make_factors(matrix)), takes_mumps_(takes_mumps(matrix))
   {
     factorise();
   }
@@ -40,7 +51,7 @@ namespace abut::solve
     for (const int room : extra_room)
     {
       failure = factors_->factorise(room);
-      if (failure.empty() || !has_mumps())
+      if (failure.empty() || !takes_mumps_)
         break;
     }
     check(failure);

@@ -14,13 +14,13 @@
 namespace abut::solve
 {
   /** A sparse factorisation by Amesos or Amesos2: MUMPS where it is built in,
-   * else KLU. deal.II's wrappers of the same cannot give MUMPS the room that
-   * indefinite matrices need beyond its estimate. */
+   * else and for small matrices KLU. deal.II's wrappers of the same cannot give
+   * MUMPS the room that indefinite matrices need beyond its estimate. */
   class DirectSolver
   {
   public:
-    /** Name of the solver. */
-    static std::string name();
+    /** Name of the solver of a matrix. */
+    static std::string name(const la::Matrix &matrix);
 
     /** Factorise @p matrix, which must exist and keep its values as long as
      * solve() is called. Throws SolverFailure if it is singular. Collective. */
@@ -37,6 +37,7 @@ namespace abut::solve
     void factorise();
 
     std::unique_ptr<Factors> factors_;
+    bool takes_mumps_;
   };
 
   /** A matrix that is made again and again, and its factors, whose order is

@@ -9,8 +9,8 @@
 
 namespace abut::solve
 {
-  /** Factors of a matrix by a package of either Trilinos stack: MUMPS where it
-   * is built in, else KLU. Functions return the reason why the package failed,
+  /** Factors of a matrix by a package of either Trilinos stack, MUMPS or KLU.
+   * Functions return the reason why the package failed,
    * empty: success, the same on all ranks. Collective. */
   class Factors
   {
@@ -30,6 +30,10 @@ namespace abut::solve
 
   /** Whether MUMPS is built in. */
   bool has_mumps();
+
+  /** Whether @p matrix is factorised by MUMPS, if that is built in: KLU has
+   * less to set up, which small matrices on one rank cost most of all. */
+  bool takes_mumps(const la::Matrix &matrix);
 
   /** For @p matrix, which must exist as long as the result is used, with the
    * same values but for refactorise(). */

@@ -312,7 +312,7 @@ namespace abut::solve
 
   std::string MaskedSolver::method() const
   {
-    return is_direct() ? DirectSolver::name()
+    return is_direct() ? DirectSolver::name(*matrix_)
                        : "conjugate gradients, " + choice_.name();
   }
 

@@ -227,8 +227,8 @@ namespace abut::solve
     increment = 0.;
     report.n_setups = 1;
     report.setup_seconds = timer.wall_time();
-    report.method =
-        is_direct() ? DirectSolver::name() : "FGMRES, algebraic multigrid";
+    report.method = is_direct() ? DirectSolver::name(matrix)
+                                : "FGMRES, algebraic multigrid";
     if (norm > tolerance && is_direct())
     {
       DirectSolver(matrix).solve(increment, rhs);

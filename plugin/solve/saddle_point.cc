@@ -376,10 +376,10 @@ namespace abut::solve
     return la::assemble(owned, ghosts, rows_->communicator(), for_each_line);
   }
 
-  void SaddlePoint::solve_directly(const System &system,
-                                   const double smallest_residual,
-                                   la::Vector &increment,
-                                   std::vector<double> &multiplier) const
+  std::string SaddlePoint::solve_directly(const System &system,
+                                          const double smallest_residual,
+                                          la::Vector &increment,
+                                          std::vector<double> &multiplier) const
   {
     const la::Matrix matrix = assemble_matrix(system);
     const dealii::IndexSet owned = la::owned_rows(matrix);
@@ -411,6 +411,7 @@ namespace abut::solve
     std::transform(system.scale.begin(), system.scale.end(),
                    values + n_unknowns, multiplier.begin(),
                    std::multiplies<>());
+    return DirectSolver::name(matrix);
   }
 
   void SaddlePoint::recover(const abut_request &request, const System &system,
@@ -437,9 +438,10 @@ namespace abut::solve
     const dealii::Timer timer;
     if (leading_.is_direct() && system.n_constraints > 0)
     {
-      solve_directly(system, smallest_residual, increment, multiplier);
+      report.method =
+          "saddle point, "
+          + solve_directly(system, smallest_residual, increment, multiplier);
       report.n_setups = 1;
-      report.method = "saddle point, " + DirectSolver::name();
       report.setup_seconds = timer.wall_time();
       recover(request, system, multiplier, increment);
       return report;

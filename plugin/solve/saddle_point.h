@@ -60,9 +60,9 @@ namespace abut::solve
     template <typename Function>
     void for_each_constraint(const System &system,
                              const Function &function) const;
-    void solve_directly(const System &system, double smallest_residual,
-                        la::Vector &increment,
-                        std::vector<double> &multiplier) const;
+    std::string solve_directly(const System &system, double smallest_residual,
+                               la::Vector &increment,
+                               std::vector<double> &multiplier) const;
     void recover(const abut_request &request, const System &system,
                  const std::vector<double> &multiplier,
                  const la::Vector &increment) const;

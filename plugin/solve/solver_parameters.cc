@@ -29,10 +29,11 @@ namespace abut
         "Linear solver. iterative: conjugate gradients with smoothed "
         "aggregation of Trilinos' ML (MueLu where ML is missing), FGMRES for "
         "saddle points. direct: factorisation by Trilinos' Amesos or Amesos2 "
-        "(MUMPS, else KLU). geometric: conjugate gradients with multigrid over "
-        "the meshes of refinement, for degree 1 and 2. auto: direct up to "
-        "`Direct limit` unknowns, then geometric for symmetric tangents where "
-        "it is possible, else iterative.");
+        "(MUMPS; KLU without it, and on one rank up to 3000 unknowns). "
+        "geometric: conjugate gradients with multigrid over the meshes of "
+        "refinement, for degree 1 and 2. auto: direct up to `Direct limit` "
+        "unknowns, then geometric for symmetric tangents where it is possible, "
+        "else iterative.");
     parameter::declare(prm, "Maximum iterations",
                        std::to_string(standard.max_iterations), Integer(1),
                        parameter::advanced("1", "2000"),

@@ -29,7 +29,7 @@ namespace abut::solve
         problem_.SetOperator(
             const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
         solver_.reset(Amesos().Create(
-            has_mumps() ? "Amesos_Mumps" : "Amesos_Klu", problem_));
+            takes_mumps(matrix) ? "Amesos_Mumps" : "Amesos_Klu", problem_));
       }
 
       ~AmesosFactors() override

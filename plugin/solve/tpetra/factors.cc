@@ -34,7 +34,8 @@ namespace abut::solve
     public:
       explicit Amesos2Factors(const la::Matrix &matrix)
           : solver_(Amesos2::create<tpetra::Matrix, tpetra::Vectors>(
-              has_mumps() ? "MUMPS" : "KLU2", matrix.trilinos_rcp()))
+              takes_mumps(matrix) ? "MUMPS" : "KLU2", matrix.trilinos_rcp())),
+            takes_mumps_(takes_mumps(matrix))
       {
       }
 
@@ -45,7 +46,7 @@ namespace abut::solve
             {
               const auto parameters =
                   Teuchos::rcp(new Teuchos::ParameterList("Amesos2"));
-              if (has_mumps())
+              if (takes_mumps_)
                 parameters->sublist("MUMPS").set("ICNTL(14)", room);
               solver_->setParameters(parameters);
               solver_->symbolicFactorization();
@@ -71,6 +72,7 @@ namespace abut::solve
 
     private:
       Teuchos::RCP<Amesos2::Solver<tpetra::Matrix, tpetra::Vectors>> solver_;
+      bool takes_mumps_;
     };
   } // namespace
 
