@@ -570,8 +570,8 @@ namespace abut::solve
                                                   la::Vector &x,
                                                   LinearReport &report) const
   {
-    // Newton's method shall hardly notice it.
-    constexpr double part = 1e-7, round_off = 1e-14;
+    // Newton's method shall take the same steps.
+    constexpr double part = 1e-3, round_off = 1e-14;
     NearControl control(std::min(
         tolerance, std::max(part * tolerance, round_off * rhs.l2_norm())));
     LinearReport count;
