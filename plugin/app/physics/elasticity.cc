@@ -67,8 +67,8 @@ namespace abut::app
                   cell));
           shim::get_dofs(cell, dofs);
           values.resize(dofs.size());
-          displacement.extract_subvector_to(dofs.begin(), dofs.end(),
-                                            values.begin());
+          for (std::size_t k = 0; k < dofs.size(); ++k)
+            values[k] = displacement(dofs[k]);
           state.value.assign(points.n_quadrature_points, {});
           state.gradient.assign(points.n_quadrature_points, {});
           for (unsigned int q = 0; q < points.n_quadrature_points; ++q)
