@@ -67,7 +67,7 @@ def laws(axes, method, rows, u):
 
 def draw_paths(paths, folder):
     figure, axes = style.figure(style.PAGE, 0.29, 2, 2)
-    for one, (method, rows) in zip(axes.flat, paths.items()):
+    for letter, one, (method, rows) in zip("abcd", axes.flat, paths.items()):
         low, high = RANGES[method]
         u = numpy.linspace(low, high, 1200)
         one.axvspan(HEIGHT, high, color=style.PALE, linewidth=0, zorder=0)
@@ -80,11 +80,10 @@ def draw_paths(paths, folder):
                  color=style.BLACK, label="solution", zorder=5)
         one.set_xlim(low, high)
         one.set_ylim(FORCE - high - 0.8 * (high - low), FORCE - low)
-        one.set_title(method)
+        one.set_title(f"({letter}) {method}")
         one.set_xlabel("displacement $u$")
         one.set_ylabel("contact force $p$")
-    axes[1][0].legend(loc="lower right", handlelength=2)
-    style.letters(axes.flat)
+    style.legend_above(figure, axes[0][0].get_legend_handles_labels()[0])
     style.save(figure, folder, "lecture-paths")
 
 
