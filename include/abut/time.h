@@ -327,9 +327,9 @@ extern "C"
     double first;       /**< B at the start */
     double last;        /**< B now */
     double highest;     /**< largest B */
-    double scale;       /**< energy at the start and largest amount of external
-                             work: what B is compared with */
-    double gain;        /**< (highest - first) / scale; 0 without a scale */
+    double scale;       /**< largest energy that start and loads have given:
+                             first and largest external work so far */
+    double gain;        /**< largest (B - first) / scale so far, at least 0 */
     double loss;        /**< (first - last) / scale, at least 0 */
     double fall;        /**< what B has fallen by in one step at the most */
     int64_t fall_at;    /**< number of the energy at the end of that step */

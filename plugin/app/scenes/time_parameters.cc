@@ -87,7 +87,8 @@ namespace abut::app
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
         "the scheme has lost " + percent(balance.loss)
-            + " of the initial energy, in addition to friction and damping: "
+            + " of the energy of the start and the loads, in addition to "
+              "friction and damping: "
             + percent(balance.fall / balance.scale) + " in the step from time "
             + short_number(begin, 6) + " to " + short_number(end, 6)
             + ", the largest part of one step. " + cause_of_loss(scheme, what),

@@ -21,14 +21,12 @@ sum_of(const abut_time_energy *e)
   return e->kinetic + e->strain + e->contact + e->dissipated - e->external_work;
 }
 
+/* Add the balance @p sum, of which @p work is that of the loads. */
 static void
-add(abut_time_balance *balance, const abut_time_energy *energy, double sum)
+add(abut_time_balance *balance, double work, double sum)
 {
   if (balance->n == 0)
-  {
     balance->first = balance->highest = sum;
-    balance->scale = energy->kinetic + energy->strain + energy->contact;
-  }
   if (balance->n > 0 && balance->last - sum > balance->fall)
   {
     balance->fall = balance->last - sum;
@@ -37,10 +35,13 @@ add(abut_time_balance *balance, const abut_time_energy *energy, double sum)
   balance->n += 1;
   balance->last = sum;
   balance->highest = fmax(balance->highest, sum);
-  balance->scale = fmax(balance->scale, fabs(energy->external_work));
-  balance->gain = balance->scale > 0
-                      ? (balance->highest - balance->first) / balance->scale
-                      : 0;
+  /* Work that the loads take back, as gravity does of what flies up, is no
+   * scale: it may be of energy that the scheme made. */
+  balance->scale =
+      fmax(fmax(balance->scale, balance->first + work), fabs(work) / blow_up);
+  if (balance->scale > 0)
+    balance->gain =
+        fmax(balance->gain, (sum - balance->first) / balance->scale);
   balance->loss =
       balance->scale > 0 ? fmax(0, balance->first - sum) / balance->scale : 0;
 }
@@ -65,7 +66,7 @@ abut_time_judge(const abut_time_scheme *given, const abut_time_energy *energy,
     *verdict = ABUT_TIME_BLOWS_UP;
     return ABUT_SUCCESS;
   }
-  add(&sums, &now, sum);
+  add(&sums, now.external_work, sum);
   *verdict = sums.gain > blow_up         ? ABUT_TIME_BLOWS_UP
              : sums.gain > scheme.growth ? ABUT_TIME_GAINS
              : sums.loss > visible_loss && scheme.impulses == 0

@@ -131,7 +131,8 @@ namespace abut::app
     report.warn(
         coded(ABUT_FAILURE_BLOW_UP,
               "the motion is unstable: at time " + short_number(time, 6)
-                  + " it has more than a hundred times its initial energy; "
+                  + " it has more than a hundred times the energy that the "
+                    "start and the loads have given; "
                   + (scheme.beta > 0.
                          ? "the step is too long for the oscillations, or the "
                            "start contradicts the fixed end. Check the units "
@@ -185,7 +186,9 @@ namespace abut::app
       report.warn(coded(
           ABUT_FAILURE_ENERGY_GAIN,
           "the energy has grown by " + short_number(100. * balance.gain, 3)
-              + " % and exceeds the limit of the scheme since time "
+              + " % of the " + short_number(balance.scale, 6)
+              + " that the start and the loads have given, and exceeds the "
+                "limit of the scheme since time "
               + short_number(gain_time, 6) + ": " + cure_of_gain()));
     const auto fall = static_cast<std::size_t>(balance.fall_at);
     if (loses && !lost && fall > 0)
