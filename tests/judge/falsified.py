@@ -746,6 +746,11 @@ FALSIFICATIONS = [
          lambda r: r["step"] == 20,
          strain_energy=lambda r: r["strain_energy"] + 1,
          energy_balance=lambda r: r["energy_balance"] + 1))),
+    ("energy of masses that impacts give", "thrown",
+     lambda c: c.table("levels.csv", first(
+         lambda r: r["step"] == 20,
+         strain_energy=lambda r: r["strain_energy"] + 1,
+         energy_lost_in_impacts=lambda r: r["energy_lost_in_impacts"] - 1))),
     ("less friction of the plane below masses", "thrown",
      lambda c: c.edit("Friction = 0.1", "Friction = 0.09")),
     ("another mass in the scene", "thrown",

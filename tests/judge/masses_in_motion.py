@@ -10,7 +10,7 @@ from thresholds import THRESHOLDS
 from verdict import CannotJudge, Wrong
 
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy",
-            "dissipated_energy")
+            "dissipated_energy", "energy_lost_in_impacts")
 # Schemes whose contact is a condition on the displacement at a step's end.
 AT_THE_END = {"hht", "trapezoid", "midpoint", "newmark", "generalised alpha",
               "central difference with projection", "velocity level"}
@@ -131,11 +131,13 @@ class MassesInMotionJudge:
             self.findings.leave("gain of energy", "the run has warned")
             return
         explicit = self.scheme.startswith("central difference")
-        gain, least = 0., self.rows[0]["energy_balance"]
+        def kept(row):
+            return row["energy_balance"] - row["energy_lost_in_impacts"]
+        gain, least = 0., kept(self.rows[0])
         for row in self.rows:
             if self.scheme == "velocity level":
-                least = min(least, row["energy_balance"])
-            gain = max(gain, row["energy_balance"] - least)
+                least = min(least, kept(row))
+            gain = max(gain, kept(row) - least)
         limit = THRESHOLDS["gain"]
         self.findings.check(
             "gain of energy", gain, limit.value

@@ -51,12 +51,12 @@ namespace abut::app
         {"n_touches", "touches"},
         {"contact_impulse", "contact impulse"},
         {"energy", "energy"},
+        {"energy_lost_in_impacts", "energy lost in impacts"},
         {"dissipation", "energy dissipated by friction"},
         {"dissipated", "energy dissipated"},
         {"dissipated_energy", "energy dissipated"},
         {"energy_gain", "part of the energy gained by the scheme"},
         {"energy_loss", "energy lost by the time scheme"},
-        {"energy_lost_in_impacts", "energy lost in impacts"},
         {"kinetic_energy", "kinetic energy"},
         {"strain_energy", "strain energy"},
         {"l2_error", "error of the displacement, L2 norm"},
@@ -216,6 +216,8 @@ namespace abut::app
         text = other->label;
       else
       {
+      else if (key == "energy" && report.number("kinetic_energy"))
+        text = "kinetic, strain and contact energy";
         std::replace(key.begin(), key.end(), '_', ' ');
         text = key;
       }
@@ -313,6 +315,8 @@ namespace abut::app
         text += " of " + short_text_of(report.get("constraints"));
       figures.add({label_of(key), text});
     }
+      if (key == "energy_lost_in_impacts" && report.number(key) == 0.)
+        return;
 
     template <std::size_t n>
     void BriefReport::add_figures(const Word (&list)[n])

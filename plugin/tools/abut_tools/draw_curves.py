@@ -98,7 +98,8 @@ def fitted_slope(x, y):
 
 
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy",
-            "dissipated_energy", "external_work", "energy_balance")
+            "dissipated_energy", "energy_lost_in_impacts", "external_work",
+            "energy_balance")
 
 
 def over_time(run, width):
@@ -108,7 +109,8 @@ def over_time(run, width):
     if table is None or "energy_balance" not in table:
         return None
     panels = [("energy [force·length]",
-               [(name, words(name), table[name]) for name in ENERGIES])]
+               [(name, words(name), table[name]) for name in ENERGIES
+                if name in table])]
     if "force_height" in table:
         panels.append(("contact force [force]", [
             ("force", "vertical", table["force_height"])]))

@@ -21,8 +21,9 @@ namespace abut::app
     }
 
     const std::vector<std::string> energies = {
-        "kinetic_energy",    "strain_energy", "contact_energy",
-        "dissipated_energy", "external_work", "energy_balance"};
+        "kinetic_energy",    "strain_energy",          "contact_energy",
+        "dissipated_energy", "energy_lost_in_impacts", "external_work",
+        "energy_balance"};
   } // namespace
 
   MotionRecord::MotionRecord(const abut_time_scheme &scheme_,
@@ -71,11 +72,16 @@ namespace abut::app
                        motion.strain(),
                        motion.contact(),
                        motion.dissipated,
+                       motion.lost_in_impacts,
                        motion.external_work,
                        motion.force_in(dimension - 1)};
     entries.push_back(now);
-    const abut_time_energy energy = {sizeof(energy), now.kinetic,    now.strain,
-                                     now.contact,    now.dissipated, now.work};
+    const abut_time_energy energy = {sizeof(energy),
+                                     now.kinetic,
+                                     now.strain,
+                                     now.contact,
+                                     now.dissipated + now.lost_in_impacts,
+                                     now.work};
     abut_time_verdict verdict = ABUT_TIME_STEADY;
     const abut_time_balance before = balance;
     abut_time_judge(&scheme, &energy, &balance, &verdict);
@@ -91,7 +97,6 @@ namespace abut::app
     for (std::size_t k = 0; k < first.size(); ++k)
       moved = std::max(moved, std::abs(displacement[k] - first[k]));
     depth = std::max(depth, motion.depth());
-    lost_in_impacts = motion.lost_in_impacts;
     std::map<std::string, double> row = {
         {"step", static_cast<double>(entries.size()) - 1.},
         {"time", time},
@@ -99,6 +104,7 @@ namespace abut::app
         {"strain_energy", now.strain},
         {"contact_energy", now.contact},
         {"dissipated_energy", now.dissipated},
+        {"energy_lost_in_impacts", now.lost_in_impacts},
         {"external_work", now.work},
         {"energy_balance", balance.last}};
     momentum.clear();
@@ -216,15 +222,12 @@ namespace abut::app
     report.set("strain_energy", last.strain);
     report.set("contact_energy", last.contact);
     report.set("dissipated_energy", last.dissipated);
+    report.set("energy_lost_in_impacts", last.lost_in_impacts);
     report.set("external_work", last.work);
     report.set("initial_energy", balance.first);
     report.set("energy_balance", balance.last);
     report.set("energy_gain", balance.gain);
-    // What restitution takes is no fault of the scheme.
-    report.set("energy_loss",
-               balance.scale > 0. ? std::max(
-                   0., balance.loss - lost_in_impacts / balance.scale)
-                                  : balance.loss);
+    report.set("energy_loss", balance.loss);
     report.set("momentum", momentum);
     report.set("contact_impulse", impulse);
     report.set("largest_contact_force", largest_force);

@@ -42,7 +42,8 @@ namespace abut::app
 
     struct Entry
     {
-      double time, kinetic, strain, contact, dissipated, work, force;
+      double time, kinetic, strain, contact, dissipated, lost_in_impacts, work,
+          force;
     };
 
     const abut_time_scheme scheme;
@@ -56,7 +57,6 @@ namespace abut::app
     bool gains = false, loses = false, lost = false;
     std::vector<double> first, displacement; ///< at the first and last entry
     double depth = 0, moved = 0;             ///< largest so far
-    double lost_in_impacts = 0;
     double gain_time = 0;
     double at_rest = 0; ///< energy that is round-off
   };

@@ -515,7 +515,6 @@ namespace abut::app
                  std::vector<double>(motion.u.begin(), motion.u.begin() + dim));
       report.set("velocity",
                  std::vector<double>(motion.v.begin(), motion.v.begin() + dim));
-      report.set("energy_lost_in_impacts", motion.lost_in_impacts);
       report.set("n_touches", motion.touch_times.size());
       report.set("touch_times",
                  std::vector<double>(
