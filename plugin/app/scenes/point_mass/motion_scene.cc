@@ -18,6 +18,7 @@
 #include <abut/dealii/text_pattern.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,7 @@ namespace abut::app
       unsigned int n_steps() const;
       double limit_of(const Motion &motion) const;
       void find_step(double limit);
+      void warn_of_short_contact(Report &report) const;
       bool take_steps(Report &report, Motion &motion, MotionRecord &record,
                       const MassSystem &system);
       void fill_summary(Report &report, const Motion &motion,
@@ -282,11 +284,15 @@ namespace abut::app
         plane.penalty =
             penalty_factor * (row.n > 1 ? row.spring : row.wall_spring);
         if (plane.penalty == 0.)
+        const std::string unit =
+            row.n > 1 ? "Masses/Spring" : "Masses/Wall spring";
           throw InputError(
-              "Contact/Penalty factor",
-              std::string(time.scheme.name)
-                  + " derives the stiffness of the plane from the row, whose "
-                    "stiffness is 0: use velocity level.");
+              unit, std::string(time.scheme.name)
+                        + " has a spring instead of the plane, whose "
+                          "stiffness is Contact/Penalty factor times "
+                        + unit
+                        + ", which is 0: give it, or use Time stepping/Scheme "
+                          "= velocity level.");
       }
     }
 
@@ -435,6 +441,24 @@ namespace abut::app
     }
 
     void MotionScene::describe(Report &report, const MassSystem &system) const
+    /** A mass on a spring of the plane stays there for half a period. */
+    void MotionScene::warn_of_short_contact(Report &report) const
+    {
+      if (row.n > 1 || time.scheme.keeps_springs == 0)
+        return;
+      const double duration =
+          dealii::numbers::PI * std::sqrt(row.mass / plane.penalty);
+      if (time.end / n_steps() > duration)
+        report.warn(coded(
+            ABUT_FAILURE_PENALTY,
+            "the mass stays on the spring of the plane for "
+                + short_number(duration, 3)
+                + ", less than a step: the time and the depth of an impact are "
+                  "wrong. Use a smaller Time stepping/Step size or a smaller "
+                  "Contact/Penalty factor",
+            {{"duration of contact", duration}}));
+    }
+
     {
       const char *const masses[] = {"consistent", "lumped", "modified"};
       report.set("method", time.scheme.name);
@@ -563,6 +587,7 @@ namespace abut::app
                               + short_number(limit, 4)
                               + ": use a smaller Time stepping/Step size"));
       const Message failure = motion.start(
+      warn_of_short_contact(report);
           start_of(system), values(*velocity, 0.), load_at(system, 0.));
       if (!failure.empty())
       {
