@@ -86,7 +86,7 @@ def near(found, expected, tolerance, what):
 def check_point_mass():
     """A mass of weight 3 on a spring of stiffness 1, 1 above a support."""
     folder = run("point-mass.prm", ["Output/Pictures=true"])
-    for name in ("energy", "penalty", "lagrangian"):
+    for name in ("path", "energy", "penalty", "lagrangian"):
         for end in ("svg", "png"):
             p.expect((folder / f"{name}.{end}").stat().st_size > 1000, name)
     data = drawn(folder)
@@ -102,6 +102,17 @@ def check_point_mass():
     near(data["penalty"]["force_of_runs"][:, 1],
          [2 * c / (1 + c) for c in (1, 10, 1e3, 1e6)], 1e-10, "forces of runs")
     near(data["lagrangian"]["saddle"], [[1, -2]], 1e-12, "saddle point")
+    # A mass pushed down by 8 on a floor at 0 (B = 1, k = 2): Newton's iterates
+    # for the penalty spring 20 lie on p = 2 u + 8 and end at -8 / 22.
+    data = drawn(run("point-mass.prm", {
+        "Masses/Stiffness": 2, "Masses/Force": -8, "Constraints/B": 1,
+        "Constraints/Initial gap": 0, "Sweep/Penalty factors": "",
+        "Method/Enforcement": "penalty", "Method/Penalty factor": 10,
+        "Output/Expected": ""}))
+    p.expect(list(data) == ["path"], f"pictures without a sweep: {list(data)}")
+    u, force = data["path"]["equilibrium"].T
+    near(force, 2 * u + 8, 1e-12, "equilibrium on a floor")
+    near(data["path"]["path"][-1], [-8 / 22, 160 / 22], 1e-10, "its end")
     near(drawn(run("method-of-multipliers.prm"))["path"]["path"][:5],
          [[x, x] for x in (0, 1 / 4, 3 / 8, 7 / 16, 15 / 32)], 1e-12, "path")
     # A later run without pictures leaves none of an earlier one.

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The pictures of the lecture (doc/lecture): paths of four methods on the point mass,
 from runs of prm/point-mass.prm, and drawings of the contact search. Ranges and labels
-are for the numbers of the shipped scene only; doc/lecture/methods.md has a script for
-other numbers.
+are for the numbers of the shipped scene only; `abut draw` draws paths of other
+numbers.
 
     tests/bench/lecture_pictures.py build/release/abut [--folder doc/pictures]"""
 import sys

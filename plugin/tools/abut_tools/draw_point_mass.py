@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures of the scene `point mass`: minimise 1/2 u'Ku - f'u under
-g0 + B u >= 0. One mass with one inequality and a sweep of penalties: energy,
-penalty, lagrangian. Two masses: path."""
+g0 + B u >= 0. One mass with one constraint, and two masses: path. One mass with
+one inequality and a sweep of penalties: energy, penalty, lagrangian."""
 import numpy
 
 from . import style
@@ -51,15 +51,30 @@ class OneMass:
         self.energy = model.energy
         self.k, self.f = model.stiffness[0, 0], model.force[0]
         self.b, self.g0 = model.rows[0, 0], model.gaps[0]
+        self.has_equality = model.has_equality
         self.row_stiffness = model.row_stiffness()
         self.free, self.wall = self.f / self.k, -self.g0 / self.b
         span = abs(self.free - self.wall) or model.length_scale()
         self.low = min(self.free, self.wall) - 0.75 * span
         self.high = max(self.free, self.wall) + 0.5 * span
-        self.wall_force = (self.k * self.wall - self.f) / self.b
+        self.wall_force = self.force(self.wall)
 
     def gap(self, u):
         return self.g0 + self.b * u
+
+    def force(self, u):
+        """Contact force that equilibrium needs: k u = f + b p."""
+        return (self.k * u - self.f) / self.b
+
+    def shade(self, axes, low, high):
+        """The side of the obstacle, from its wall to the edge."""
+        axes.axvspan(self.wall, high if self.b < 0 else low, color=style.PALE,
+                     linewidth=0, zorder=0)
+        axes.annotate("obstacle", (self.wall, 0.97),
+                      xycoords=("data", "axes fraction"), va="top",
+                      ha="left" if self.b < 0 else "right", color=style.GREY,
+                      textcoords="offset points",
+                      xytext=(-4 * numpy.sign(self.b), 0))
 
     def penalized(self, u, penalty):
         """Energy with that of the springs in place of the obstacle."""
@@ -73,23 +88,24 @@ class OneMass:
         u = ((self.f - spring * self.b * self.g0)
              / (self.k + spring * self.b ** 2))
         u = numpy.where(self.gap(self.free) >= 0, self.free, u)
-        return u, (self.k * u - self.f) / self.b
+        return u, self.force(u)
 
 
 def pictures(run, width):
     model = Model(run)
     n, sweep = len(model.force), run.table("sweep.csv")
-    if n == 1 and len(model.rows) == 1 and not model.has_equality \
-            and sweep is not None:
+    if n == 1 and len(model.rows) == 1:
         mass = OneMass(model)
-        yield "energy", _energy(mass, sweep, width)
-        yield "penalty", _penalty(mass, sweep, width)
-        yield "lagrangian", _lagrangian(mass, width)
+        yield "path", _path_of_one(mass, run, width)
+        if sweep is not None and not model.has_equality:
+            yield "energy", _energy(mass, sweep, width)
+            yield "penalty", _penalty(mass, sweep, width)
+            yield "lagrangian", _lagrangian(mass, width)
     elif n == 2:
         yield "path", _path(model, run, width)
     else:
-        warn("no pictures: they are drawn for one mass with one inequality and "
-             "Sweep/Penalty factors, and for two masses.")
+        warn("no pictures: they are drawn for one mass with one constraint and "
+             "for two masses.")
 
 
 def _energy(mass, sweep, width):
@@ -99,12 +115,7 @@ def _energy(mass, sweep, width):
     height = max(abs(at_wall), at_wall - lowest)
     axes.set_xlim(mass.low, mass.high)
     axes.set_ylim(lowest - 0.4 * height, at_wall + 1.6 * height)
-    axes.axvspan(mass.wall, mass.high if mass.b < 0 else mass.low,
-                 color=style.PALE, linewidth=0, zorder=0)
-    axes.annotate("obstacle", (mass.wall, 0.97),
-                  xycoords=("data", "axes fraction"), va="top",
-                  ha="left" if mass.b < 0 else "right", color=style.GREY,
-                  textcoords="offset points", xytext=(-4 * numpy.sign(mass.b), 0))
+    mass.shade(axes, mass.low, mass.high)
     style.named(*axes.plot(u, mass.energy(u), color=style.GREY, linestyle="--",
                            label="no obstacle"), "free")
     for i, penalty in enumerate(sweep["penalty"]):
@@ -179,6 +190,28 @@ def _lagrangian(mass, width):
     axes.grid(False)
     axes.set_xlabel("displacement $u$ [length]")
     axes.set_ylabel(r"multiplier $\lambda = -p$ [force]")
+    style.legend(axes)
+    return figure
+
+
+def _path_of_one(mass, run, width):
+    figure, [[axes]] = style.figure(min(width, 130), 0.7)
+    levels = run.table("levels.csv")
+    u, p = levels["u"], levels["p"]
+    ends = [*u, mass.free, mass.wall]
+    margin = 0.15 * (max(ends) - min(ends)) or 0.5 * (mass.high - mass.low)
+    low, high = min(ends) - margin, max(ends) + margin
+    if not mass.has_equality:
+        mass.shade(axes, low, high)
+    style.named(*axes.plot([low, high], [mass.force(low), mass.force(high)],
+                           color=style.GREY, linestyle="--",
+                           label="equilibrium $ku = f + Bp$"), "equilibrium")
+    axes.axvline(mass.wall, color=style.VERMILION, label="gap closed")
+    style.named(*axes.plot(u, p, marker="o", color=style.BLUE,
+                           label="iterates"), "path")
+    axes.set_xlim(low, high)
+    axes.set_xlabel("displacement $u$ [length]")
+    axes.set_ylabel("contact force $p$ [force]")
     style.legend(axes)
     return figure
 
