@@ -7,6 +7,7 @@ Penalty eps: u = (mg + eps h) / (k + eps), p = eps (mg - k h) / (k + eps).
 Augmented Lagrangian: the error in p shrinks by k / (k + eps) a step.
 Barrier mu: s = h - u solves k s^2 + (mg - k h) s = mu, p = mu / s."""
 import math
+import re
 
 from program import Program
 
@@ -77,6 +78,43 @@ for mu in (1, 0.1, 1e-4):
     s = (-EXACT + math.sqrt(EXACT**2 + 4 * K * mu)) / (2 * K)
     p.close(u, H - s, 1e-12, f"barrier {mu} u")
     p.close(force, mu / s, 1e-12 if mu > 1e-3 else 1e-10, f"barrier {mu} p")
+
+# The barrier's first step is cut at 0.995 of the way from u = 0, s = 1 and p = mu
+# = 0.9 to the support. In full, (1 + 0.9) du = 3 - 0.9 and dp = 0.9 du.
+_, _, rows = solution("barrier")
+full = (MG - 0.9) / (K + 0.9)
+part = 0.995 / full
+p.close(rows[0]["u"], 0.995, 1e-12, "barrier: cut step")
+p.close(rows[0]["p"], 0.9 + part * 0.9 * full, 1e-12, "barrier: its force")
+
+# A start below the support: the constraint, its gap and the parameter.
+for command, code in (("run", 3), ("check", 2)):
+    result = p.call(command, p.source / "prm/point-mass.prm", *method("barrier"),
+                    "--set", "Masses/Start=2")
+    p.expect(result.returncode == code and "Masses/Start" in result.stderr
+             and "1 with gap -1" in result.stderr
+             and ("ABUT-F10" in result.stderr) == (code == 3),
+             f"{command} from a closed start: {result.returncode} {result.stderr}")
+p.expect(p.call("check", p.source / "prm/point-mass.prm", *method("interior point"),
+                "--set", "Masses/Start=2").returncode == 0,
+         "interior point starts anywhere")
+
+# A floor under the start: u stays 0 and p is 8, and each outer step has its row,
+# whose product p s falls.
+summary, rows = p.solve("point-mass.prm", *method("interior point"), "--set",
+                        "Masses/Stiffness=2", "--set", "Masses/Force=-8", "--set",
+                        "Constraints/B=1", "--set", "Constraints/Initial gap=0")
+p.close(summary["contact_force"][0], 8, 1e-6, "floor p")
+p.expect([row["outer"] for row in rows] == list(range(1, len(rows) + 1))
+         and len(rows) > 1, f"outer steps on a floor: {rows}")
+p.expect(all(a["barrier"] > b["barrier"] for a, b in zip(rows, rows[1:])),
+         "products on a floor")
+
+# 0 has no sign.
+p.solve("point-mass.prm", "--set", "Masses/Force=0.5")
+for name in ("summary.json", "levels.csv"):
+    p.expect(not re.search(r"-0(?![.\d])", (p.folder / "out" / name).read_text()),
+             f"-0 in {name}")
 
 # A mass that does not reach its support.
 summary, _ = p.solve("point-mass.prm", "--set", "Masses/Force=0.5")

@@ -125,6 +125,7 @@ namespace abut::app
 
     private:
       void parse_model(ParameterHandler &prm);
+      std::string closed_at_start() const;
       void describe(Report &report) const;
       void fill_table(Report &report, const PointMassSolution &solution) const;
       void fill_summary(Report &report,
@@ -279,8 +280,32 @@ namespace abut::app
                        + std::to_string(model.n()));
     }
 
+    /** What the barrier cannot start from; else empty. */
+    std::string PointMass::closed_at_start() const
+    {
+      if (!abut_law_needs_open_start(method.options.law))
+        return "";
+      std::string closed;
+      for (std::size_t i = 0; i < model.rows.size(); ++i)
+        if (const double gap = model.gap(i, model.start); gap <= 0.)
+          closed += (closed.empty() ? "" : ", ") + std::to_string(i + 1)
+                    + " with gap " + short_number(gap, 4);
+      return closed.empty()
+                 ? ""
+                 : std::string(method.options.law->name)
+                       + " needs a start with open gaps, and at Masses/Start "
+                         "these constraints are closed: "
+                       + closed
+                       + ". Give another Masses/Start, or use "
+                         "Method/Enforcement = interior point, which needs "
+                         "none.";
+    }
+
     void PointMass::check(const RunOptions &, Report &report)
     {
+      const std::string closed = closed_at_start();
+      if (!closed.empty())
+        throw InputError("Masses/Start", closed);
       describe(report);
     }
 
@@ -321,7 +346,7 @@ namespace abut::app
         for (std::size_t i = 0; i < p.size(); ++i)
         {
           row[p[i]] = step.pressure[i];
-          row[lambda[i]] = -step.pressure[i];
+          row[lambda[i]] = 0. - step.pressure[i];
         }
         report.add_row(row);
         for (const auto &names : {u, lambda})
@@ -344,7 +369,7 @@ namespace abut::app
             std::max(penetration, model.equality[i] ? std::abs(gap) : -gap);
         complementarity =
             std::max(complementarity, std::abs(gap * solution.pressure[i]));
-        lambda.push_back(-solution.pressure[i]);
+        lambda.push_back(0. - solution.pressure[i]);
       }
       report.set("active", solution.progress.n_active);
       report.set("contact_force", solution.pressure);
@@ -394,10 +419,13 @@ namespace abut::app
       if (solution.reason == ABUT_REASON_CONVERGED)
         diagnose_iteration(report, solution.progress);
       else
+      {
+        const std::string closed = closed_at_start();
         report.warn(
             coded(abut_reason_failure(solution.reason, method.options.law,
                                       &solution.progress),
-                  abut_reason_text(solution.reason)));
+                  closed.empty() ? abut_reason_text(solution.reason) : closed));
+      }
 
       SectionTimes::Scope scope(report.times, "output");
       if (Utilities::MPI::this_mpi_process(options.communicator) == 0

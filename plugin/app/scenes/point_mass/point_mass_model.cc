@@ -52,6 +52,7 @@ namespace abut::app
           {pressure, pressure + solution.pressure.size()}};
       // The end of a solve is reported even if nothing moved any more.
       if (!solution.history.empty()
+          && solution.history.back().progress.barrier == progress->barrier
           && solution.history.back().displacement == step.displacement
           && solution.history.back().pressure == step.pressure)
         solution.history.pop_back();
