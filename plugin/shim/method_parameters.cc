@@ -173,7 +173,8 @@ namespace abut
           "Stiffness of the contact springs relative to the stiffness of the "
           "contact surface (nitsche: gamma). auto: penalty 50, augmented "
           "lagrangian 20, nitsche 10, quadratic penalty 1 at the start. "
-          "Larger: less penetration, harder linear systems.");
+          "Larger: less penetration, harder linear systems. Point masses: "
+          "relative to sum_j B_j^2 K_jj / (sum_j B_j^2)^2 of the constraint.");
       parameter::declare(
           prm, "Nitsche theta", "0", NumberPattern::between(-1, 1),
           parameter::expert("1", "1"),

@@ -166,9 +166,10 @@ namespace abut::app
     /** Words of the schemes; the first is the default. */
     std::string scheme_words()
     {
-      std::string words = "velocity level";
+      const std::string first = "velocity level";
+      std::string words = first;
       for (std::int32_t i = 0; abut_time_scheme_name(i) != nullptr; ++i)
-        if (words != abut_time_scheme_name(i))
+        if (first != abut_time_scheme_name(i))
           words += std::string("|") + abut_time_scheme_name(i);
       return words;
     }
@@ -283,9 +284,9 @@ namespace abut::app
       {
         plane.penalty =
             penalty_factor * (row.n > 1 ? row.spring : row.wall_spring);
-        if (plane.penalty == 0.)
         const std::string unit =
             row.n > 1 ? "Masses/Spring" : "Masses/Wall spring";
+        if (plane.penalty == 0.)
           throw InputError(
               unit, std::string(time.scheme.name)
                         + " has a spring instead of the plane, whose "
@@ -440,7 +441,6 @@ namespace abut::app
       time.check_step();
     }
 
-    void MotionScene::describe(Report &report, const MassSystem &system) const
     /** A mass on a spring of the plane stays there for half a period. */
     void MotionScene::warn_of_short_contact(Report &report) const
     {
@@ -459,6 +459,7 @@ namespace abut::app
             {{"duration of contact", duration}}));
     }
 
+    void MotionScene::describe(Report &report, const MassSystem &system) const
     {
       const char *const masses[] = {"consistent", "lumped", "modified"};
       report.set("method", time.scheme.name);
@@ -586,8 +587,8 @@ namespace abut::app
                           "the time step is above the limit of the scheme, "
                               + short_number(limit, 4)
                               + ": use a smaller Time stepping/Step size"));
-      const Message failure = motion.start(
       warn_of_short_contact(report);
+      const Message failure = motion.start(
           start_of(system), values(*velocity, 0.), load_at(system, 0.));
       if (!failure.empty())
       {
