@@ -8,7 +8,7 @@ namespace abut::app
   std::string short_number(const double value, const int digits)
   {
     char text[64];
-    std::snprintf(text, sizeof(text), "%.*g", digits, value);
+    std::snprintf(text, sizeof(text), "%.*g", digits, value + 0.); // 0: no sign
     return text;
   }
 } // namespace abut::app

@@ -196,8 +196,12 @@ namespace abut::app
       {
         const unsigned long entry =
             std::strtoul(&key[bracket + 1], nullptr, 10);
-        component = entry < 3 ? std::string(" ") + axes[entry]
-                              : ", entry " + std::to_string(entry + 1);
+        // Constraints and masses are no directions.
+        const std::string name = key.substr(0, bracket);
+        component = entry < 3 && name != "contact_force" && name != "lambda"
+                            && name != "displacement"
+                        ? std::string(" ") + axes[entry]
+                        : ", entry " + std::to_string(entry + 1);
         key.erase(bracket);
       }
       std::string owner;
@@ -212,12 +216,12 @@ namespace abut::app
         text = label_of_pair(*word);
       else if (const Word *of_contact = find(contact_words, key))
         text = of_contact->label;
+      else if (key == "energy" && report.number("kinetic_energy"))
+        text = "kinetic, strain and contact energy";
       else if (const Word *other = find(words, key))
         text = other->label;
       else
       {
-      else if (key == "energy" && report.number("kinetic_energy"))
-        text = "kinetic, strain and contact energy";
         std::replace(key.begin(), key.end(), '_', ' ');
         text = key;
       }
@@ -311,12 +315,12 @@ namespace abut::app
         return;
       if (key == "active" && report.number("constraints") == 0.)
         return;
+      if (key == "energy_lost_in_impacts" && report.number(key) == 0.)
+        return;
       if (key == "active")
         text += " of " + short_text_of(report.get("constraints"));
       figures.add({label_of(key), text});
     }
-      if (key == "energy_lost_in_impacts" && report.number(key) == 0.)
-        return;
 
     template <std::size_t n>
     void BriefReport::add_figures(const Word (&list)[n])

@@ -33,7 +33,8 @@ namespace abut::app
     if (!std::isfinite(value))
       return "null";
     char text[40];
-    const auto result = std::to_chars(text, text + sizeof(text), value);
+    // 0 has no sign.
+    const auto result = std::to_chars(text, text + sizeof(text), value + 0.);
     return std::string(text, result.ptr);
   }
 

@@ -117,6 +117,9 @@ LABELS = {
                                ""),
 }
 
+# Values of constraints and masses, which are no directions.
+LISTS = ("contact_force", "lambda", "displacement")
+
 # Of pair N, behind pair_N_, in the order of pages.
 PAIR = {
     "force": ("force on the secondary surface", "", "force"),
@@ -164,7 +167,9 @@ def entry(key):
                                ).get(rest, (rest.replace("_", " "), "", ""))
     if part:
         text += f" of {part[1]} {part[2]}"
-    if bracket and index.rstrip("]") in ("0", "1", "2"):
+    if name in LISTS and bracket:
+        text += f", entry {int(index.rstrip(']')) + 1}"
+    elif bracket and index.rstrip("]") in ("0", "1", "2"):
         text += f" in {'xyz'[int(index.rstrip(']'))]}"
     return text, symbol, dimension
 
