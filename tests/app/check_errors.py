@@ -52,6 +52,11 @@ result = p.call("run", p.write(
     "set Obstacles = 1\nend\nsubsection Obstacle 1\nset Half length = 3\nend\n"))
 p.expect_error(result, "wrong.prm:7", "there is no such parameter")
 p.expect("Did you mean" not in result.stderr, result.stderr)
+wrong("set Scene = chain of masses\nsubsection Masses\n"
+      "set Initial velocity = -10\nend\n", "wrong.prm:3",
+      "Scene = motion has 'Motion/Initial velocity'")
+wrong(POINT + "subsection Bar\nset Elements = 9\nend\n", "wrong.prm:3",
+      "Scene = motion has 'Bar/Elements'")
 wrong(POINT + "set Penalty = 5\n", "wrong.prm:2", "'Method/Penalty factor'")
 
 # Values.

@@ -72,7 +72,8 @@ namespace abut::app
      * that is wrong, else the parameter. */
     [[noreturn]] void
     throw_undeclared(const std::string &path,
-                     const std::vector<DeclaredParameter> &declared)
+                     const std::vector<DeclaredParameter> &declared,
+                     const AdviceFor &elsewhere)
     {
       const std::size_t slash = path.rfind('/');
       const std::string section =
@@ -93,10 +94,13 @@ namespace abut::app
         if (last == name)
           same_name.push_back(parameter.path);
       }
+      const auto or_elsewhere = [&](const std::string &advice)
+      { return advice.empty() && elsewhere ? elsewhere(path) : advice; };
       if (!section.empty() && names.empty())
-        throw InputError(path, "there is no section '" + section + "'."
-                                   + did_you_mean(section, {sections.begin(),
-                                                            sections.end()}));
+        throw InputError(path,
+                         "there is no section '" + section + "'."
+                             + or_elsewhere(did_you_mean(
+                                 section, {sections.begin(), sections.end()})));
       // Under another section, or under its old name.
       for (const parameter::OldName &old : parameter::old_names())
         if (std::filesystem::path(old.old_path).filename() == name)
@@ -121,7 +125,8 @@ namespace abut::app
                                 [&](const std::string &a, const std::string &b)
                                 { return in_common(a) < in_common(b); })
             + "'.";
-      throw InputError(path, "there is no such parameter." + advice);
+      throw InputError(path,
+                       "there is no such parameter." + or_elsewhere(advice));
     }
 
     void set_value(ParameterHandler &prm, const DeclaredParameter &parameter)
@@ -354,7 +359,7 @@ namespace abut::app
   }
 
   std::vector<DeclaredParameter>
-  ParameterFile::apply(ParameterHandler &prm) const
+  ParameterFile::apply(ParameterHandler &prm, const AdviceFor &elsewhere) const
   {
     std::vector<DeclaredParameter> declared = declared_parameters(prm);
     for (const Assignment &assignment : assignments)
@@ -364,7 +369,7 @@ namespace abut::app
         if (parameter.path == assignment.path)
           found = &parameter;
       if (found == nullptr)
-        throw_undeclared(assignment.path, declared);
+        throw_undeclared(assignment.path, declared, elsewhere);
       // The last assignment counts; the others are not looked at.
       found->value = get(assignment.path, "");
       if (!found->zero_word.empty() && OrWord::is_zero(found->value))

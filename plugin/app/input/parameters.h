@@ -15,6 +15,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ namespace abut::app
     std::string written = path; /**< path in the file, perhaps an old name */
     std::string written_value = value;
   };
+
+  /** Advice on a path that is not declared, " Sentence."; or empty. */
+  using AdviceFor = std::function<std::string(const std::string &path)>;
 
   /** The assignments of a scene file and of the command line's `--set`. */
   class ParameterFile
@@ -89,8 +93,10 @@ namespace abut::app
 
     /** Set all values in @p prm and return what is declared there, with its
      * values now. Throws InputError for a parameter or section that is not
-     * declared and for a value that its pattern refuses. */
-    std::vector<DeclaredParameter> apply(dealii::ParameterHandler &prm) const;
+     * declared, with the advice of @p elsewhere where names here give none, and
+     * for a value that its pattern refuses. */
+    std::vector<DeclaredParameter> apply(dealii::ParameterHandler &prm,
+                                         const AdviceFor &elsewhere = {}) const;
 
     /** Old names and words that were given, each with the one of today. */
     std::vector<std::string>

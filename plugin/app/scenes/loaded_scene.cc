@@ -31,6 +31,28 @@ namespace abut::app
       }
     }
 
+    /** The same parameters, or ones of the same name, in other kinds of scenes;
+     * empty if there are none. */
+    std::string in_other_kinds(const SceneKind &kind, const std::string &path)
+    {
+      const auto last = [](const std::string &each)
+      { return each.substr(each.rfind('/') + 1); };
+      std::string same, similar;
+      for (const SceneKind &other : scene_kinds())
+      {
+        if (std::string(other.name) == kind.name)
+          continue;
+        dealii::ParameterHandler prm;
+        declare_all(prm, other, *other.create(other.dimensions.front()));
+        for (const DeclaredParameter &each : declared_parameters(prm))
+          if (last(each.path) == last(path))
+            (each.path == path ? same : similar) += std::string(" Scene = ")
+                                                    + other.name + " has '"
+                                                    + each.path + "'.";
+      }
+      return same.empty() ? similar : same;
+    }
+
     /** Checksum of the file that @p value may be the name of, else empty. */
     std::string content_of(const RunOptions &options, const std::string &value)
     {
@@ -52,7 +74,8 @@ namespace abut::app
     scene = scene_kind.create(dimension);
     scene->count(file);
     declare_all(prm, scene_kind, *scene);
-    declared = file.apply(prm);
+    declared = file.apply(prm, [this](const std::string &path)
+                          { return in_other_kinds(scene_kind, path); });
     old_words = file.old_words(declared);
   }
 
