@@ -11,6 +11,7 @@ from .vtu import read_mesh
 
 MOST_EDGES = 1500   # more make the file large
 MOST_FACES = 20000  # in space
+LEAST_EDGE = 0.4    # mm on paper; smaller cells would hide the field
 STATES = ((1, "sticks", style.STICK), (2, "slips", style.SLIP),
           (0, "open", style.GREY))
 STRESS = "mean_von_mises_stress"
@@ -85,7 +86,8 @@ def _plane(run, mesh, contact, obstacles, width):
     views = [(low, high)] if zoom is None else [(low, high), zoom]
     for axis, (begin, end) in zip(axes, views):
         field = _draw_bodies(axis, mesh, points, norm,
-                             0.2 * min(1, room / 60))
+                             0.2 * min(1, room / 60),
+                             LEAST_EDGE * (end - begin)[0] / room)
         axis.add_collection(style.named(collections.LineCollection(
             surfaces, colors=style.BLACK, linewidths=1.8, zorder=3),
             "obstacles" if axis is axes[0] else None))
@@ -137,14 +139,15 @@ def _frame(points, surfaces):
             numpy.maximum(high, nearest) + strip)
 
 
-def _draw_bodies(axes, mesh, points, norm, linewidth):
-    """The stress, the mesh and the outline; returns the stress."""
+def _draw_bodies(axes, mesh, points, norm, linewidth, least):
+    """The stress, the cells without edges below the length `least`, and the
+    outline; returns the stress."""
     places, values, corners = geometry.fine_triangles(mesh, points,
                                                       _stress(mesh))
     field = axes.tripcolor(
         Triangulation(places[:, 0], places[:, 1], corners), values,
         shading="gouraud", cmap=style.FIELD_MAP, norm=norm, rasterized=True)
-    edges = geometry.edges(mesh)
+    edges = geometry.edges(mesh, points, least)
     axes.add_collection(collections.LineCollection(
         points[edges], colors="#ffffff90", linewidths=linewidth,
         rasterized=len(edges) > MOST_EDGES))
@@ -231,30 +234,50 @@ def _traction_curves(run):
     return curves
 
 
-def _broken(table, name):
-    """Arc and values, interrupted between lines."""
+def _abscissa(curves):
+    """x or y where the pressed lines run along it, else the length along
+    them."""
+    for name in ("x", "y"):
+        if all(_runs_along(table, name) for _, table, _, _ in curves):
+            return name
+    return "arc"
+
+
+def _runs_along(table, name):
+    pressed = table["pressure"] > 1e-6 * table["pressure"].max()
+    same_line = (numpy.diff(table["line"]) == 0) & pressed[1:] & pressed[:-1]
+    steps = numpy.diff(table[name])[same_line]
+    return (len(steps) > 0 and len(numpy.unique(table["line"][pressed])) == 1
+            and (abs(steps) > 0.95 * numpy.diff(table["arc"])[same_line]).all()
+            and ((steps > 0).all() or (steps < 0).all()))
+
+
+def _broken(table, name, along):
+    """Places and values, interrupted between lines."""
     ends = numpy.flatnonzero(numpy.diff(table["line"])) + 1
-    return (numpy.insert(table["arc"], ends, numpy.nan),
+    return (numpy.insert(table[along], ends, numpy.nan),
             numpy.insert(table[name], ends, numpy.nan))
 
 
-def _pressed_range(curves):
+def _pressed_range(curves, along):
     """Lengths with pressure, and as much again on both sides."""
     largest = max(table["pressure"].max() for _, table, _, _ in curves)
-    end = max(table["arc"].max() for _, table, _, _ in curves)
+    begin = min(table[along].min() for _, table, _, _ in curves)
+    end = max(table[along].max() for _, table, _, _ in curves)
     pressed = numpy.concatenate([
-        table["arc"][table["pressure"] > 1e-6 * largest]
+        table[along][table["pressure"] > 1e-6 * largest]
         for _, table, _, _ in curves])
     if not len(pressed) or not numpy.ptp(pressed) > 0:
-        return 0.0, end
+        return begin, end
     size = numpy.ptp(pressed)
-    return max(0.0, pressed.min() - size), min(end, pressed.max() + size)
+    return max(begin, pressed.min() - size), min(end, pressed.max() + size)
 
 
 def _tractions(run, curves, width):
     figure, [[axes]] = style.figure(width, 0.45)
-    low, high = _pressed_range(curves)
-    shown = sum(((table["arc"] >= low) & (table["arc"] <= high)).sum()
+    along = _abscissa(curves)
+    low, high = _pressed_range(curves, along)
+    shown = sum(((table[along] >= low) & (table[along] <= high)).sum()
                 for _, table, _, _ in curves)
     marker = {} if shown < 150 else {"marker": ""}
     several = len(curves) > 1
@@ -264,17 +287,17 @@ def _tractions(run, curves, width):
                                           ("friction", "tangential traction"))):
             if closed is not None and abs(closed[part]).max() > 0:
                 style.named(*axes.plot(
-                    *_broken(closed, part), color=style.BLACK,
+                    *_broken(closed, part, along), color=style.BLACK,
                     linestyle="-" if j == 0 else "--", linewidth=0.9, zorder=3,
                     label=f"{text}, {name}{of}"), f"closed_{part}_{number}")
             computed = {**style.curve_style(2 * i + j), **marker}
             if closed is not None and not marker:
                 computed["linestyle"] = ""
             if j == 0 or abs(table[part]).max() > 0:
-                style.named(*axes.plot(*_broken(table, part), **computed,
+                style.named(*axes.plot(*_broken(table, part, along), **computed,
                                        label=text + of), f"{part}_{number}")
     axes.set_xlim(low, high)
-    axes.set_xlabel(label("arc"))
+    axes.set_xlabel(label("arc") if along == "arc" else f"${along}$ [length]")
     axes.set_ylabel("traction [force/area]")
     style.legend(axes)
     return figure

@@ -57,6 +57,10 @@ def _errors(run, table):
     if run.kind != "solid" and numpy.isfinite(exact):
         curves.append(("energy_error", "error of the energy",
                        abs(table["energy"] - exact)))
+    for key, value in run.summary.get("expected", {}).items():
+        if key in table and value != 0:
+            curves.append((f"expected_{key}", f"error of {words(key)}",
+                           abs(table[key] / value - 1)))
     judged = table.get("estimated_error", nothing)
     estimate = numpy.where(numpy.isnan(judged),
                            table.get("estimate", nothing), numpy.nan)

@@ -94,9 +94,10 @@ def _shape_functions(s, r, n_nodes):
         axis=1)
 
 
-def edges(mesh):
+def edges(mesh, points=None, least=0.0):
     """Edges of a plane mesh, each as its two or three points in a row; of
-    edges with two the middle is the second end."""
+    edges with two the middle is the second end. Without cells that have an edge
+    below the length `least` between `points`."""
     parts = []
     for kind, cells in kinds(mesh):
         n = cells.shape[1]
@@ -108,7 +109,11 @@ def edges(mesh):
                        [(i, (i + 1) % 3, (i + 1) % 3) for i in range(3)])
         else:
             continue
-        parts.append(cells[:, pattern].reshape(-1, 3))
+        part = cells[:, pattern]
+        if least > 0.0:
+            spans = points[part[:, :, 2]] - points[part[:, :, 0]]
+            part = part[numpy.linalg.norm(spans, axis=2).min(axis=1) >= least]
+        parts.append(part.reshape(-1, 3))
     return numpy.concatenate(parts) if parts else numpy.zeros((0, 3), int)
 
 

@@ -3,7 +3,7 @@
 the defaults."""
 from .report_page import details, escape, pointer, quoted, table
 
-# Columns of the tables of bodies, obstacles and pairs.
+# Rows of the tables of bodies, obstacles and pairs.
 TABLES = (
     ("Body", "Bodies", ("Name", "Material", "Element", "Young modulus",
                         "Poisson ratio", "Density",
@@ -32,16 +32,20 @@ def tables(run):
 
 
 def section_table(run, beginning, heading, names):
-    """A row for each section; columns of which something was given."""
+    """Values of each section, a column for each while these are fewer than the
+    names; names of which something was given."""
     sections = run.sections(beginning)
     shown = [name for name in names
              if any(is_given(run, f"{section}/{name}") for section in sections)]
     if not sections or not shown:
         return ""
-    return f"<h3>{heading}</h3>\n" + table(
-        [""] + [escape(name) for name in shown],
-        [[escape(section).replace(" ", "&nbsp;")] + [value_of(run, f"{section}/{name}")
-                              for name in shown] for section in sections])
+    head = [escape(section).replace(" ", "&nbsp;") for section in sections]
+    rows = [[escape(name)] + [value_of(run, f"{section}/{name}")
+                              for section in sections] for name in shown]
+    if len(sections) > len(shown):
+        rows = [list(row) for row in zip(head, *(row[1:] for row in rows))]
+        head = [escape(name) for name in shown]
+    return f"<h3>{heading}</h3>\n" + table(["", *head], rows)
 
 
 def is_given(run, path):

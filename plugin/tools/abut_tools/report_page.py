@@ -26,7 +26,7 @@ h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; padding-bottom: .25rem;
 h3 { font-size: 1rem; margin: 1.4rem 0 .4rem; }
 p { margin: .4rem 0 .7rem; max-width: 46rem; }
 code, pre { font: .87em/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
-code { overflow-wrap: break-word; } p code { overflow-wrap: anywhere; }
+code { overflow-wrap: break-word; } p code, td code { overflow-wrap: anywhere; }
 pre { background: var(--pale); border: 1px solid var(--line); border-radius: 4px;
   padding: .6rem .8rem; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; }
 .banner { margin: 1.25rem 0 0; padding: 1rem 1.2rem; border: 1px solid var(--line);

@@ -3,7 +3,7 @@
 points; and the examination of the answer."""
 import re
 
-from .labels import PAIR
+from . import labels
 from .report_page import (details, labelled, number, pointer, quoted, table,
                           values)
 
@@ -29,6 +29,21 @@ RUN = ("contact_force", "largest_contact_force", "contact_impulse",
        "bytes_per_facet")
 
 
+# Areas of pairs in plane scenes.
+WIDTHS = {"contact_area": ("contact width", "", "length"),
+          "covered_area": ("width with a partner opposite", "", "length"),
+          "area": ("length of the secondary surface", "", "length")}
+
+
+def is_plane(run):
+    return run.kind == "solid" and run.parameter("Dimension") != "3" and \
+        run.parameter("Solid/Plane") != "axisymmetric"
+
+
+def pair_labels(run):
+    return {**labels.PAIR, **WIDTHS} if is_plane(run) else labels.PAIR
+
+
 def results(run):
     parts = [expected(run), pairs(run),
              numbered(run, "body", "Bodies",
@@ -38,10 +53,9 @@ def results(run):
                        "obstacle_force")),
              numbered(run, "point", "Points", ("point_node", "point")),
              figures(run, RUN, "Whole run")]
-    if run.kind == "solid" and run.parameter("Dimension") != "3" and \
-            run.parameter("Solid/Plane") != "axisymmetric":
+    if is_plane(run):
         parts.append('<p class="soft">In the plane, forces and energies are '
-                     "per unit of thickness, and areas are lengths.</p>")
+                     "per unit of thickness.</p>")
     return "\n".join(part for part in parts if part)
 
 
@@ -72,11 +86,19 @@ def expected(run):
             error = "off by " + number(found - value, of, "difference", 2)
         else:
             error = number(abs((found - value) / value), of, "error", 2)
-        rows.append([labelled(key), number(found, of[0]), number(value, of[1]),
+        rows.append([expected_label(run, key), number(found, of[0]), number(value, of[1]),
                      error])
     return rows and "<h3>Compared with expected values</h3>\n" + table(
         ["", "result", "expected", "relative error"], rows,
         numeric=(1, 2, 3))
+
+
+def expected_label(run, key):
+    match = re.fullmatch(r"pair_(\d+)_(\w+_area|area)", key)
+    if not match or not is_plane(run):
+        return labelled(key)
+    text, _, dimension = WIDTHS[match[2]]
+    return labelled(key, {key: (f"{text} of pair {match[1]}", "", dimension)})
 
 
 def pairs(run):
@@ -89,11 +111,12 @@ def pairs(run):
     if not found:
         return ""
     names = {name for of_pair in found.values() for name in of_pair}
-    order = [name for name in PAIR if name in names]
+    known = pair_labels(run)
+    order = [name for name in known if name in names]
     order += sorted(names - set(order))
 
     def rows(main):
-        return [[labelled(name, PAIR)] + [
+        return [[labelled(name, known)] + [
             values(run.summary[of_pair[name]],
                    f"summary.json#{pointer(of_pair[name])}")
             if name in of_pair else "" for of_pair in found.values()]

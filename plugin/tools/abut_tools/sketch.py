@@ -3,8 +3,10 @@
 symbols, pairs coloured, obstacles. From outline.json, obstacles.vtu and
 parameters.json. `abut check --draw` makes a file of it, `abut report` a part of
 its page."""
+import ast
 import json
 import math
+import operator
 import os
 import re
 
@@ -397,31 +399,38 @@ class Sketch:
 
     def draw_loads(self, axes):
         any_drawn = any_dots = False
+        time = self.run.number("Time stepping/End time", 1.0)
         for surface, name, words in self.loads():
-            load = [value_of(word) for word in words]
-            if not any(value != 0 for value in load):
+            samples = surface.samples(7)
+            loads = [[value_at(word, place, time) for word in words]
+                     for place, _ in samples]
+            largest = max((numpy.linalg.norm(load) for load in loads
+                           if None not in load), default=0.0)
+            if largest == 0 and all(value_of(word) == 0 for word in words):
                 continue
-            for place, normal in surface.samples(7):
-                if None in load:
+            for (place, normal), load in zip(samples, loads):
+                if None in load or largest == 0:
                     axes.plot(*place, "o", color=LOAD, markersize=3, zorder=4)
                     any_dots = True
                     continue
                 out = self.outward(surface, place, normal)
                 towards = (numpy.array(load) if name == "Traction"
                            else -load[0] * out)
-                towards = towards / numpy.linalg.norm(towards)
-                length = 0.09 * self.size
-                tail, head = ((place - length * towards, place)
-                              if towards @ out < 0 else
-                              (place, place + length * towards))
+                if not numpy.linalg.norm(towards) > 0.05 * largest:
+                    continue
+                arrow = 0.09 * self.size / largest * towards
+                tail, head = ((place - arrow, place) if towards @ out < 0
+                              else (place, place + arrow))
                 axes.annotate("", head, tail, zorder=4, arrowprops={
                     "arrowstyle": "-|>", "color": LOAD, "linewidth": 0.8,
                     "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6})
                 any_drawn = True
         if any_drawn:
-            self.note("arrows: pressure and traction, not to scale")
+            self.note("arrows: pressure and traction at the end time, to a "
+                      "scale for each boundary")
         if any_dots:
-            self.note("dots: pressure and traction by formulas")
+            self.note("dots: pressure and traction by other formulas, or 0 "
+                      "at the end time")
 
     def draw_ids(self, axes):
         for surface in self.surfaces:
@@ -496,6 +505,46 @@ def value_of(word):
         except (ValueError, ZeroDivisionError):
             return None
     return result
+
+
+FUNCTIONS = {**{name: getattr(math, name) for name in (
+    "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
+    "sqrt", "exp", "log10")}, "ln": math.log, "abs": abs, "min": min,
+    "max": max, "if_": lambda test, yes, no: yes if test else no}
+OPERATIONS = {ast.Add: operator.add, ast.Sub: operator.sub,
+              ast.Mult: operator.mul, ast.Div: operator.truediv,
+              ast.Pow: operator.pow, ast.USub: operator.neg,
+              ast.UAdd: operator.pos, ast.Lt: operator.lt, ast.Gt: operator.gt,
+              ast.LtE: operator.le, ast.GtE: operator.ge}
+
+
+def value_at(word, place, time):
+    """A formula at a point, None where it has what is not evaluated here."""
+    names = {**dict(zip("xyz", map(float, place))), "t": time, "pi": math.pi}
+
+    def value(node):
+        if isinstance(node, ast.Constant):
+            return float(node.value)
+        if isinstance(node, ast.Name):
+            return names[node.id]
+        if isinstance(node, ast.UnaryOp):
+            return OPERATIONS[type(node.op)](value(node.operand))
+        if isinstance(node, ast.BinOp):
+            return OPERATIONS[type(node.op)](value(node.left),
+                                             value(node.right))
+        if isinstance(node, ast.Compare) and len(node.ops) == 1:
+            return OPERATIONS[type(node.ops[0])](value(node.left),
+                                                 value(node.comparators[0]))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            return FUNCTIONS[node.func.id](*map(value, node.args))
+        raise ValueError
+
+    try:
+        text = re.sub(r"\bif\s*\(", "if_(", word.strip().replace("^", "**"))
+        found = value(ast.parse(text, mode="eval").body)
+        return found if math.isfinite(found) else None
+    except (ValueError, KeyError, TypeError, SyntaxError, ArithmeticError):
+        return None
 
 
 def main(words):
