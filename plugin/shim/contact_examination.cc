@@ -208,6 +208,29 @@ namespace abut::shim
            {"error limit", useless}});
     }
 
+    /** Of bodies without supports, whose strains are linear: a rotation by r
+     * stretches them by 1 - cos r. */
+    void judge_motion(const BodyMotion &motion, Findings &findings)
+    {
+      const double turned = motion.rotation.norm();
+      if (turned <= visible_rotation)
+        return;
+      const double stretch = 1. - std::cos(turned);
+      findings.add(ABUT_FAILURE_SLIDING, stretch > useless,
+                   motion.text
+                       + ". Strains are linear in the displacement, "
+                         "which stretches a body that rotates so far by "
+                       + percent(stretch)
+                       + ", and contact has moved away from where it was. "
+                         "Apply loads without a moment about the contact, "
+                         "support the rotation, or use a material with large "
+                         "strain.",
+                   {{"rotation", turned},
+                    {"warning limit", visible_rotation},
+                    {"stretch", stretch},
+                    {"error limit", useless}});
+    }
+
     template <int dim>
     void judge_depths(const PairResult<dim> &pair, const double soft,
                       const DepthScale &scale, Findings &findings)
@@ -533,6 +556,9 @@ namespace abut::shim
     result.motions = i.system.solver != nullptr
                          ? i.system.solver->rigid_motions(displacement)
                          : i.system.followed_motions;
+    if (!allow_large_strain)
+      for (const BodyMotion &motion : result.motions)
+        judge_motion(motion, findings);
     const std::vector<FacetPenetration> facet_penetrations =
         i.source->facet_penetrations(displacement, i.row_states().data());
     i.surfaces->examination().examine(displacement, i.row_pressures().data(),

@@ -414,6 +414,27 @@ for law in ("nitsche", "lagrange", "augmented lagrangian"):
                "Time stepping/Cut back=false"), 3, "ABUT-F40",
            without=("ABUT-F31", "ABUT-F09", "ABUT-F07"))
 
+# Half a disc under a load with a moment rolls on the plane until contact is
+# below the resultant, at x from its centre: it rotates by x / sqrt(1 - x^2), or
+# half a facet more or less (64 facets on the round side).
+disc = p.write("disc.prm", solid(
+    2, section("Body 1", "Young modulus = 1e6", "Poisson ratio = 0.3",
+               "Prescribed displacement = 1: free, free",
+               section("Mesh", "Generator = half_hyper_ball", "Rotate = -90",
+                       "Arguments = 0, 0 : 1", "Move = 0, 1")),
+    section("Obstacle 1", "Normal = 0, 1"),
+    section("Pair 1", "Secondary = 1: 0", "Obstacle = 1"),
+    section("Refinement", "Level = 5"), bodies=1, obstacles=1))
+for slope, code in ((0.06, 0), (0.6, 0), (1.5, 3)):
+    place = slope / 3
+    told = place > 0.05
+    summary = expect(run(disc, f"Body 1/Traction=1: 0, -1 - {slope}*x"), code,
+                     *(("ABUT-F36", "rotated") if told else ()),
+                     without=() if told else ("ABUT-F36",))
+    expected = place / (1 - place**2) ** 0.5
+    p.expect(abs(summary["body_1_rotated"] + expected) < 0.025,
+             f"slope {slope}: rotated by {summary['body_1_rotated']}")
+
 # A motion that nothing can hold is found before anything is solved, and told
 # once.
 floating = p.source / "prm/failures/floating-sideways.prm"
