@@ -20,7 +20,7 @@ namespace abut
     {
       automatic, /**< direct for small systems, else iterative */
       iterative, /**< CG (or FGMRES for saddle points) with ML */
-      direct,    /**< Amesos: MUMPS where it is built in, else KLU */
+      direct,    /**< Amesos: MUMPS if built in, KLU for small systems */
       geometric  /**< CG with multigrid over the meshes that the mesh was
                       refined from; iterative where there are none */
     };
