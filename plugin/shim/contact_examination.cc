@@ -58,11 +58,12 @@ namespace abut::shim
 
       void add(const abut_failure failure, const bool is_error,
                const std::string &text, Message::Numbers numbers = {},
-               const double between_nodes = 0.)
+               const double between_nodes = 0., const int body = -1)
       {
         ContactFinding finding(coded(failure, text, std::move(numbers)),
                                is_error);
         finding.between_nodes = between_nodes;
+        finding.body = body;
         finding.pair_number = number_;
         finding.pair = name_;
         result_.findings.push_back(finding);
@@ -208,7 +209,7 @@ namespace abut::shim
            {"error limit", useless}});
     }
 
-    /** Of bodies without supports, whose strains are linear: a rotation by r
+    /** Bodies without supports whose strains are linear: a rotation by r
      * stretches them by 1 - cos r. */
     void judge_motion(const BodyMotion &motion, Findings &findings)
     {
@@ -223,12 +224,13 @@ namespace abut::shim
                        + percent(stretch)
                        + ", and contact has moved away from where it was. "
                          "Apply loads without a moment about the contact, "
-                         "support the rotation, or use a material with large "
+                         "support the rotation, or use a material of finite "
                          "strain.",
                    {{"rotation", turned},
                     {"warning limit", visible_rotation},
                     {"stretch", stretch},
-                    {"error limit", useless}});
+                    {"error limit", useless}},
+                   0., static_cast<int>(motion.body));
     }
 
     template <int dim>
