@@ -116,7 +116,7 @@ def main():
         text, name = page.read_text(encoding="utf-8"), page.relative_to(ROOT)
         lengths = [n for _, n in sentences(text)]
         if page.stem not in REFERENCE:
-            guide += len(re.findall(r"\w[\w'/.-]*", NOT_TEXT.sub("", text)))
+            guide += len(re.findall(r"\b[^\W\d_][\w'/.-]*", NOT_TEXT.sub("", text)))
         if not lengths:
             continue
         mean = sum(lengths) / len(lengths)
@@ -139,8 +139,8 @@ def main():
         for what, line in diary((ROOT / f"doc/{name}.md").read_text(encoding="utf-8")):
             print(f"doc/{name}.md: {what}: {line[:150]}")
             bad += 1
-    print(f"{total} words of prose; the guide has {guide}, with tables, without code,"
-          f" and may have {GUIDE}")
+    print(f"{total} words of prose; the guide has {guide}, with tables, without code and"
+          f" numbers, and may have {GUIDE}")
     if guide > GUIDE:
         print("Shorten pages, or refer to the page that has a fact already.")
         bad += 1
