@@ -58,12 +58,11 @@ namespace abut::shim
 
       void add(const abut_failure failure, const bool is_error,
                const std::string &text, Message::Numbers numbers = {},
-               const double between_nodes = 0., const int body = -1)
+               const double between_nodes = 0.)
       {
         ContactFinding finding(coded(failure, text, std::move(numbers)),
                                is_error);
         finding.between_nodes = between_nodes;
-        finding.body = body;
         finding.pair_number = number_;
         finding.pair = name_;
         result_.findings.push_back(finding);
@@ -207,30 +206,6 @@ namespace abut::shim
            {"largest rotation", pair.largest_rotation},
            {"warning limit", visible_rotation},
            {"error limit", useless}});
-    }
-
-    /** Bodies without supports whose strains are linear: a rotation by r
-     * stretches them by 1 - cos r. */
-    void judge_motion(const BodyMotion &motion, Findings &findings)
-    {
-      const double turned = motion.rotation.norm();
-      if (turned <= visible_rotation)
-        return;
-      const double stretch = 1. - std::cos(turned);
-      findings.add(ABUT_FAILURE_SLIDING, stretch > useless,
-                   motion.text
-                       + ". Strains are linear in the displacement, "
-                         "which stretches a body that rotates so far by "
-                       + percent(stretch)
-                       + ", and contact has moved away from where it was. "
-                         "Apply loads without a moment about the contact, "
-                         "support the rotation, or use a material of finite "
-                         "strain.",
-                   {{"rotation", turned},
-                    {"warning limit", visible_rotation},
-                    {"stretch", stretch},
-                    {"error limit", useless}},
-                   0., static_cast<int>(motion.body));
     }
 
     template <int dim>
@@ -558,9 +533,6 @@ namespace abut::shim
     result.motions = i.system.solver != nullptr
                          ? i.system.solver->rigid_motions(displacement)
                          : i.system.followed_motions;
-    if (!allow_large_strain)
-      for (const BodyMotion &motion : result.motions)
-        judge_motion(motion, findings);
     const std::vector<FacetPenetration> facet_penetrations =
         i.source->facet_penetrations(displacement, i.row_states().data());
     i.surfaces->examination().examine(displacement, i.row_pressures().data(),

@@ -9,9 +9,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <vector>
 
 namespace abut::app
 {
+  namespace
+  {
+    /** Bodies without supports whose strains are linear: a rotation by r
+     * stretches them by 1 - cos r. */
+    void judge_rotation(const BodyMotion &motion,
+                        std::vector<ContactFinding> &findings)
+    {
+      const double turned = motion.rotation.norm();
+      if (turned <= shim::visible_rotation)
+        return;
+      const double stretch = 1. - std::cos(turned);
+      std::ostringstream text;
+      text
+          << motion.text
+          << ". Strains are linear in the displacement, which stretches a body "
+             "that rotates so far by "
+          << std::setprecision(3) << 100. * stretch
+          << " %, and contact has moved away from where it was. Apply loads "
+             "without a moment about the contact, support the rotation, or use "
+             "a material of finite strain.";
+      ContactFinding finding(coded(ABUT_FAILURE_LARGE_STRAIN, text.str(),
+                                   {{"rotation", turned},
+                                    {"warning limit", shim::visible_rotation},
+                                    {"stretch", stretch},
+                                    {"error limit", shim::useless}}),
+                             stretch > shim::useless);
+      finding.body = static_cast<int>(motion.body);
+      findings.push_back(finding);
+    }
+  } // namespace
+
   template <int dim> double ContactRun<dim>::counted_seconds() const
   {
     return report.times.seconds("assembly") + report.times.seconds("transfer")
@@ -169,6 +203,9 @@ namespace abut::app
         finding.is_error = true;
       }
     }
+    if (!model.allows_large_strain())
+      for (const BodyMotion &motion : examination.motions)
+        judge_rotation(motion, findings);
     if (model.has_large_strain())
       findings.erase(std::remove_if(findings.begin(), findings.end(),
                                     [](const ContactFinding &finding) {
