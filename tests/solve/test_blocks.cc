@@ -240,7 +240,7 @@ namespace
         const std::string up = dim == 2 ? "(0, 1)" : "(0, 0, 1)";
         const std::string down = dim == 2 ? "(0, -1)" : "(0, 0, -1)";
         Expect::that(
-            open.find("'upper block' can slide along") != open.npos
+            open.find("upper block can slide along") != open.npos
                 && (open.find(up) != open.npos || open.find(down) != open.npos),
             "the block moves up: " + open);
 
