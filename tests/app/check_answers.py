@@ -425,10 +425,10 @@ disc = p.write("disc.prm", solid(
     section("Obstacle 1", "Normal = 0, 1"),
     section("Pair 1", "Secondary = 1: 0", "Obstacle = 1"),
     section("Refinement", "Level = 5"), bodies=1, obstacles=1))
-for slope, code in ((0.06, 0), (0.6, 0), (1.5, 3)):
+for slope in (0.06, 0.6, 1.5):
     place = slope / 3
     told = place > 0.05
-    summary = expect(run(disc, f"Body 1/Traction=1: 0, -1 - {slope}*x"), code,
+    summary = expect(run(disc, f"Body 1/Traction=1: 0, -1 - {slope}*x"), 0,
                      *(("ABUT-F35", "rotated") if told else ()),
                      without=() if told else ("ABUT-F35",))
     expected = place / (1 - place**2) ** 0.5

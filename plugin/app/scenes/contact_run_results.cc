@@ -38,9 +38,8 @@ namespace abut::app
       ContactFinding finding(coded(ABUT_FAILURE_LARGE_STRAIN, text.str(),
                                    {{"rotation", turned},
                                     {"warning limit", shim::visible_rotation},
-                                    {"stretch", stretch},
-                                    {"error limit", shim::useless}}),
-                             stretch > shim::useless);
+                                    {"stretch", stretch}}),
+                             false);
       finding.body = static_cast<int>(motion.body);
       findings.push_back(finding);
     }
