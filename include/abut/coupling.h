@@ -413,6 +413,9 @@ extern "C"
      * integration on facets with a share in the row, along the facets' mean
      * normals, without the gap of the target; else NULL. */
     const double *least;
+    /** [nodes of the secondary] as full_weight, of nodes with and without
+     * points; on the facets of points that are wanted. */
+    const double *full_of_node;
   } abut_coupling_view;
 
   /** View of the last build. O(1). */

@@ -76,7 +76,7 @@ namespace abut::shim
           if (i.rows.coefficients.is_tangent(row)
               && states[row] != ABUT_STATE_OPEN)
             values[row] = -i.rows.gap[row];
-        return i.present_source().pressure(values.data());
+        return i.present_source().slip(values.data());
       }
 
       la::Vector status() const override

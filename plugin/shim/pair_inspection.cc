@@ -217,6 +217,7 @@ namespace abut::shim
                                       const unsigned int n_dropped)
   {
     SurfacePair<dim> &pair = pairs_[number];
+    points_.add_node_areas(pair);
     abut_coupling_statistics statistics;
     check(host_.context,
           abut_coupling_get_statistics(

@@ -66,6 +66,7 @@ namespace abut::shim
                               const std::vector<Direction<dim>> &u)
   {
     points_ = points;
+    node_area_ = la::Vector();
     checks_.clear();
     clear();
     record_place(u);
@@ -75,6 +76,39 @@ namespace abut::shim
   {
     check(host().context, abut_points_clear(points_));
     update_view();
+  }
+
+  template <int dim>
+  void PairPoints<dim>::add_node_areas(const SurfacePair<dim> &pair)
+  {
+    abut_coupling_view made;
+    check(host().context,
+          abut_coupling_get(abut_interface_coupling(pair.interface.get()),
+                            &made));
+    // Quadrature points are made on the facets of each rank, those of nodes on
+    // all facets around the nodes that it owns.
+    const bool adds_up = discretisation_info(pair.discretisation).row_per_point;
+    la::Vector area(host().dof_handler.locally_owned_dofs(),
+                    host().communicator);
+    for (std::size_t n = 0; n < pair.secondary.node.size(); ++n)
+      if (adds_up || set_->is_owned(pair.secondary.node[n]))
+        area(surface().nodes[pair.secondary.node[n]].dof[0]) +=
+            made.full_of_node[n];
+    area.compress(dealii::VectorOperation::add);
+    if (node_area_.size() == 0)
+      node_area_ = area;
+    else
+      for (int k = 0; k < la::n_owned(area); ++k)
+        la::data(node_area_)[k] =
+            std::max(la::data(node_area_)[k], la::data(area)[k]);
+  }
+
+  template <int dim>
+  double PairPoints<dim>::node_area(const NodeIndex node) const
+  {
+    const dealii::IndexSet &owned = host().dof_handler.locally_owned_dofs();
+    return la::data(
+        node_area_)[owned.index_within_set(surface().nodes[node].dof[0])];
   }
 
   template <int dim>

@@ -216,6 +216,21 @@ namespace abut::shim
     /** Take all points out. */
     void clear();
 
+    /** Take the areas of the nodes of a pair whose points have been made.
+     * Collective. */
+    void add_node_areas(const SurfacePair<dim> &pair);
+
+    /** Area of the secondary surfaces that belongs to a node of this rank,
+     * covered or not: what its force is divided by. */
+    double node_area(NodeIndex node) const;
+
+    /** Part of it that a point at a node of this rank stands for. */
+    double coverage(const PointRow<dim> &row) const
+    {
+      const double area = node_area(row.place.node);
+      return area > 0. ? view_.weight[row.point] / area : 1.;
+    }
+
     /** Keep those rows only; see abut_points_filter(). */
     void filter(const std::vector<std::uint8_t> &keep);
 
@@ -270,6 +285,7 @@ namespace abut::shim
     abut_points *points_ = nullptr;
     abut_points_view view_ = {};
     abut_places_view places_ = {};
+    la::Vector node_area_; ///< at the first unknowns of nodes; empty: none
     std::vector<PairCheck> checks_;
     std::vector<std::vector<std::uint8_t>> dropped_; ///< [pairs]
     std::vector<dealii::Point<dim>> present_, reference_;

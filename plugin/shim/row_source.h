@@ -166,6 +166,13 @@ namespace abut::shim
      * Collective. */
     virtual la::Vector pressure(const double *row_pressure) const = 0;
 
+    /** The field of slips, from [rows] values that are 0 but at tangents.
+     * Collective. */
+    virtual la::Vector slip(const double *row_slip) const
+    {
+      return pressure(row_slip);
+    }
+
     /** The field of gaps, 0 where there is no row. Collective. */
     virtual la::Vector gap(const double *row_gap) const = 0;
 

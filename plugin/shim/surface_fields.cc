@@ -125,6 +125,37 @@ namespace abut::shim
   template <int dim>
   la::Vector SurfaceFields<dim>::pressure(const double *row_pressure) const
   {
+    // Forces of nodes by their areas, so that the integral is the force where
+    // the other side covers a part of these.
+    la::Vector result = field();
+    const auto add =
+        [&](const PointRow<dim> &i, const NodeIndex node, const double share)
+    {
+      const double force =
+          share * points_.view().weight[i.point] * row_pressure[i.row];
+      for (unsigned int d = 0; d < dim; ++d)
+        result(surface_.nodes[node].dof[d]) += force * i.direction[d];
+    };
+    points_.for_each_row([&](const PointRow<dim> &row)
+                         { for_each_share_of(row, add); });
+    result.compress(dealii::VectorOperation::add);
+    for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
+    {
+      if (!points_.set().is_owned(static_cast<NodeIndex>(n)))
+        continue;
+      const double area = points_.node_area(static_cast<NodeIndex>(n));
+      for (unsigned int d = 0; d < dim && area > 0.; ++d)
+        result(surface_.nodes[n].dof[d]) =
+            result(surface_.nodes[n].dof[d]) / area;
+    }
+    result.compress(dealii::VectorOperation::insert);
+    fill_between_nodes(result);
+    return result;
+  }
+
+  template <int dim>
+  la::Vector SurfaceFields<dim>::slip(const double *row_slip) const
+  {
     // At nodes as it is; from quadrature points by weighted means.
     la::Vector result = field(), weight = field();
     const auto add =
@@ -138,7 +169,7 @@ namespace abut::shim
       for (unsigned int d = 0; d < dim; ++d)
       {
         const auto dof = surface_.nodes[node].dof[d];
-        result(dof) += w * row_pressure[i.row] * i.direction[d];
+        result(dof) += w * row_slip[i.row] * i.direction[d];
         if (i.place.node < 0 && is_first)
           weight(dof) += w;
       }

@@ -21,6 +21,7 @@ namespace abut::shim
     la::Vector field() const;
     std::vector<double> row_pressure(const la::Vector &field) const;
     la::Vector pressure(const double *row_pressure) const;
+    la::Vector slip(const double *row_slip) const;
     la::Vector gap(const double *row_gap) const;
     la::Vector status(const std::uint8_t *row_state) const;
     void push_inside(const std::vector<double> &gap,

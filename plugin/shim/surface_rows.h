@@ -132,6 +132,10 @@ namespace abut::shim
     {
       return fields().pressure(row_pressure);
     }
+    la::Vector slip(const double *row_slip) const override
+    {
+      return fields().slip(row_slip);
+    }
     la::Vector gap(const double *row_gap) const override
     {
       return fields().gap(row_gap);

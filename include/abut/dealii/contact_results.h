@@ -104,11 +104,14 @@ namespace abut
      * the upper, 0 where there is no row (hanging nodes: distribute your
      * hanging-node constraints).
      *
-     * Pairs: the vector p n at the nodes of the secondary surface, where -p n
-     * is the force per area on it, so that it can be interpolated to another
-     * mesh; for ties likewise with the shear. Hanging nodes have the value of
-     * their parents, nodes between corners the mean of these where multipliers
-     * have degree 1. */
+     * Pairs: the vector p n at the nodes of the secondary surface, and -p n is
+     * the force of a node by its area, the integral of its shape function; for
+     * ties likewise with the shear. So the integral of -p n over the secondary
+     * surface is the force on it, also where the other side ends within facets:
+     * nodes at that rim have a share of the pressure beside it, as large as the
+     * part of their area that is covered. Hanging nodes have the value of their
+     * parents, nodes between corners the mean of these where multipliers have
+     * degree 1. It can be interpolated to another mesh. */
     virtual la::Vector pressure() const = 0;
 
     /** Nodal gap to the nearer obstacle, 0 where there is no row. Pairs: in

@@ -507,6 +507,7 @@ abut_coupling_append(abut_coupling *c)
   v->facet = c->made.facet.data;
   v->point = c->made.number.data;
   v->full_weight = c->made.full.data;
+  v->full_of_node = c->of_node.full.data;
   v->position = c->made.position.data;
   const bool turns = abut_coupling_has_current_directions(c),
              moves = turns || abut_coupling_moves(c);
