@@ -21,6 +21,7 @@ namespace abut::shim
   {
     displacement_ = displacement;
     is_lost_ = !is_known;
+    is_given_ = false;
     approach_.clear();
     poses_.clear();
     times_.clear();

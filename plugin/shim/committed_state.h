@@ -20,6 +20,12 @@ namespace abut::shim
       return displacement_;
     }
 
+    /** Whether the host gave it after load() or reinit(). */
+    bool is_given() const
+    {
+      return is_given_ && displacement_.size() > 0;
+    }
+
     /** Throw if it is not known; @p what needs it. */
     void check(const std::string &what) const;
 
@@ -30,6 +36,12 @@ namespace abut::shim
 
     /** Another mesh follows, whose displacement only the host knows. */
     void leave_mesh();
+
+    /** The displacement recorded is given by the host. */
+    void set_given()
+    {
+      is_given_ = true;
+    }
 
     /** The displacement is that of another run. */
     void lose()
@@ -83,6 +95,7 @@ namespace abut::shim
   private:
     la::Vector displacement_;
     bool is_lost_ = false;              ///< of another mesh or run
+    bool is_given_ = false;             ///< by the host, or by commit()
     std::vector<RigidPose<dim>> poses_; ///< of obstacles; empty: first
     std::vector<double> times_;         ///< of obstacles, likewise
     /** [pairs][bodies] motions before the pair touched; empty: nothing. */

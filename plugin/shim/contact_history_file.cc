@@ -30,7 +30,7 @@ namespace abut::shim
     };
 
     constexpr char magic[8] = {'a', 'b', 'u', 't', '-', 's', 'e', 't'};
-    constexpr std::uint32_t byte_order = 0x01020304, version = 1;
+    constexpr std::uint32_t byte_order = 0x01020304, version = 2;
 
     std::uint64_t sum_of(const Head &head)
     {
@@ -73,6 +73,9 @@ namespace abut::shim
     Head read_head(std::istream &stream)
     {
       Head head = {};
+      if (!stream.good() || stream.peek() == std::istream::traits_type::eof())
+        throw HistoryError("There is no history of contact in the stream: it "
+                           "is empty or not open.");
       read(stream, reinterpret_cast<char *>(&head), sizeof(head));
       if (std::memcmp(head.magic, magic, sizeof(magic)) != 0)
         throw HistoryError(
@@ -197,9 +200,10 @@ namespace abut::shim
                                                    ABUT_HISTORY_TRIAL, &known));
             if (known.mesh != 0 && known.mesh != mesh)
               throw HistoryError(
-                  "The contact history belongs to another mesh or to other "
-                  "surfaces. Transfer the pressure as a field instead "
-                  "(ContactState::set_pressure()).");
+                  "The contact history belongs to another mesh, to the same "
+                  "in a triangulation of another type, where cells have other "
+                  "numbers, or to other surfaces. Transfer the pressure "
+                  "as a field instead (ContactState::set_pressure()).");
             merge(context_, part.get(), loaded.get());
           }
         });

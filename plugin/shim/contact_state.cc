@@ -3,6 +3,8 @@
 // preconditioner is saved as the data that it was built for.
 #include "agree.h"
 #include "contact_problem.h"
+#include "fnv_hash.h"
+#include "saved_words.h"
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -12,6 +14,63 @@ namespace abut::shim
 {
   namespace
   {
+    /** Words that identify a pair. */
+    enum PairWord
+    {
+      secondary_ids,
+      primary_ids,
+      has_obstacle,
+      is_tied,
+      has_friction,
+      n_words
+    };
+
+    template <int dim>
+    std::vector<std::uint64_t>
+    words_of(const std::vector<ContactPair<dim>> &pairs)
+    {
+      const auto hash_of = [](const auto &ids)
+      {
+        FnvHash hash;
+        for (const auto id : ids)
+          hash.mix(id);
+        return hash.value;
+      };
+      std::vector<std::uint64_t> result;
+      for (const ContactPair<dim> &pair : pairs)
+        for (const std::uint64_t word :
+             {hash_of(pair.secondary), hash_of(pair.primary),
+              std::uint64_t(pair.obstacle != nullptr), std::uint64_t(pair.tied),
+              std::uint64_t(pair.friction != nullptr)})
+          result.push_back(word);
+      return result;
+    }
+
+    /** Throw unless the pairs are those with these words. */
+    template <int dim>
+    void check_pairs(const std::vector<ContactPair<dim>> &pairs,
+                     const std::vector<std::uint64_t> &saved)
+    {
+      const std::vector<std::uint64_t> here = words_of(pairs);
+      if (saved.size() != here.size())
+        throw HistoryError("The contact history is of "
+                           + std::to_string(saved.size() / n_words)
+                           + " pairs, but there are "
+                           + std::to_string(pairs.size()) + ".");
+      for (std::size_t k = 0; k < here.size(); ++k)
+      {
+        if (saved[k] == here[k])
+          continue;
+        static const char *const member[n_words] = {
+            "secondary", "primary", "obstacle", "tied", "friction"};
+        throw HistoryError("The pair '" + pairs[k / n_words].name
+                           + "' is not that of the contact history: its '"
+                           + member[k % n_words] + "' differs"
+                           + ". Transfer the pressure as a field instead "
+                             "(ContactState::set_pressure()).");
+      }
+    }
+
     template <int dim> class ProblemState : public ContactState
     {
     public:
@@ -34,6 +93,7 @@ namespace abut::shim
         if (i.surfaces != nullptr)
           i.surfaces->set().record_commit(displacement);
         i.committed.record(displacement, true, i.input.pairs);
+        i.committed.set_given();
         if (i.rows.are_found)
           i.find_slip_reference();
       }
@@ -41,6 +101,7 @@ namespace abut::shim
       void save(std::ostream &stream) override
       {
         i.history.save(stream);
+        save_words(stream, i.communicator, words_of(i.input.pairs));
         i.surface_search.elements.save(stream, i.communicator);
         if (i.surfaces != nullptr)
           i.surface_search.exchange->self_contact().save(stream);
@@ -61,6 +122,9 @@ namespace abut::shim
         i.history.load(stream, mesh,
                        [&]
                        {
+                         check_pairs(i.input.pairs,
+                                     load_words(stream, i.communicator,
+                                                "The pairs of the history"));
                          elements.load(stream, i.communicator);
                          if (i.surfaces != nullptr)
                            i.surfaces->load_sides(stream);

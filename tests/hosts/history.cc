@@ -296,7 +296,7 @@ namespace
       expect(text.find(word) != std::string::npos,
              "refused with '" + text + "', without '" + word + "'");
     };
-    expect_refused("", "cut off");
+    expect_refused("", "empty or not open");
     expect_refused(std::string(1000, 'x'), "not a contact history");
     expect_refused(bytes.substr(0, 30), "cut off");
     const std::size_t half = bytes.size() / 2;

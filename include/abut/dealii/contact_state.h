@@ -39,7 +39,8 @@ namespace abut
      * of updated kinematics are made, on a new mesh: the displacement of the
      * last commit(), with prescribed values as they were then, brought to this
      * mesh. Needed after reinit() for pairs with friction and for updated
-     * kinematics only, and after load(). */
+     * kinematics only, and after load(). If points that pressed then have gaps
+     * at @p displacement, ContactChecks::pairs() warns after detect(). */
     virtual void set_committed(const la::VectorView &displacement) = 0;
 
     /** Write what was committed to @p stream of rank 0, binary; streams of
@@ -53,7 +54,10 @@ namespace abut
      * and pairs; of pairs the number of ranks may be another, rows on single
      * unknowns of an obstacle need the same numbers of unknowns. With friction
      * call set_committed(), too: without it detect() throws. Throws
-     * HistoryError, and nothing changes, for anything else. */
+     * HistoryError, and nothing changes, for anything else, such as pairs with
+     * other boundary ids, or with friction where there was none; and for the
+     * same mesh in a triangulation of another type (serial or distributed),
+     * where cells have other numbers. */
     virtual void load(std::istream &stream) = 0;
 
     /** Write into a stream of each rank, binary, what its preconditioner was
