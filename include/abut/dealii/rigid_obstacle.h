@@ -50,6 +50,31 @@ namespace abut
     return shape;
   }
 
+  /** The shape of a ball, in 2D of a disc; for a hole set `hollow`. */
+  template <int dim>
+  abut_obstacle_shape sphere(const dealii::Point<dim> &centre,
+                             const double radius)
+  {
+    abut_obstacle_shape shape =
+        plane<dim>(centre, dealii::Point<dim>::unit_vector(dim - 1));
+    shape.kind = ABUT_OBSTACLE_SPHERE;
+    shape.radius = radius;
+    return shape;
+  }
+
+  /** The shape of a cylinder without ends about the line through @p point along
+   * @p axis, of any length but zero; in 2D a disc, and the axis is not read. */
+  template <int dim>
+  abut_obstacle_shape cylinder(const dealii::Point<dim> &point,
+                               const dealii::Tensor<1, dim> &axis,
+                               const double radius)
+  {
+    abut_obstacle_shape shape = plane<dim>(point, axis);
+    shape.kind = dim == 2 ? ABUT_OBSTACLE_SPHERE : ABUT_OBSTACLE_CYLINDER;
+    shape.radius = radius;
+    return shape;
+  }
+
   /** A surface given as height over the plane orthogonal to a coordinate axis.
    */
   template <int dim> struct HeightObstacle
