@@ -168,6 +168,9 @@ namespace abut
         ExcMessage("The communicator given to ContactAssembler must be "
                    "that of the triangulation: MPI_COMM_SELF for one "
                    "that is not distributed."));
+    AssertThrow(constraints.is_closed(),
+                ExcMessage("Call close() for the constraints before they are "
+                           "given to reinit()."));
     AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(),
                 ExcMessage("The unknowns of a rank must be numbered "
                            "consecutively."));
@@ -188,6 +191,8 @@ namespace abut
     // the number of unknowns is the same.
     i.abandon_iteration();
     i.start_displacement = la::Vector();
+    i.present_displacement = la::Vector();
+    i.residual_check.clear();
     i.committed.leave_mesh();
     i.rows.slip_reference = {};
     i.scales.law_compliance = la::Vector();
@@ -220,6 +225,7 @@ namespace abut
                                { return i.displacement_of(motions); });
     i.find_rows_in_reach(displacement);
     i.rows.are_found = true;
+    i.check_committed();
     i.start.set_state({});
     i.start.set_restarted(false);
     i.system.tolerance = 0.;
@@ -361,6 +367,9 @@ namespace abut
     increment = 0.;
     if (!i.is_started)
       i.begin(matrix, residual);
+    else
+      i.residual_check.compare(matrix, residual, i.present_displacement,
+                               i.scales.round_off());
     la::Vector moved;
     if (i.moving.has_geometry())
       moved = i.moving.with_geometry(residual);
@@ -394,6 +403,7 @@ namespace abut
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
       return false;
+    i.present_displacement = displacement;
     i.moving.move_to(displacement);
     std::vector<double> before;
     if (i.system.was_added)
@@ -525,6 +535,12 @@ namespace abut
              ? std::string(known->name) + ": " + known->remedy
              : std::string(abut_reason_text(result.reason)))
         + (failed && !seen.empty() ? " (" + seen + ")" : "");
+    if (result.reason == ABUT_REASON_CONVERGED)
+      for (const std::string &pair : i.pairs_without_rows())
+        result.explanation +=
+            ", but no node of '" + pair
+            + "' has a constraint: nothing of it can touch. See "
+              "ContactChecks::pairs() for the cause";
     return result;
   }
 

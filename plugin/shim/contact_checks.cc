@@ -126,14 +126,7 @@ namespace abut::shim
       double imbalance(const la::VectorView &given_residual,
                        const double least) const override
       {
-        const la::Vector &residual =
-            i.given("imbalance()", "residual", given_residual);
-        la::Vector contact(residual);
-        contact = 0.;
-        i.add_forces(contact);
-        const double size = std::max(contact.l2_norm(), least);
-        contact -= residual;
-        return size > 0. ? contact.l2_norm() / size : 0.;
+        return imbalance(given_residual, least, 0.);
       }
 
       double imbalance(const la::VectorView &residual) const override
@@ -142,7 +135,8 @@ namespace abut::shim
         if (!i.is_started
             || (i.input.is_nitsche() && i.input.method.nitsche_theta != 0.))
           return 0.;
-        return imbalance(residual, i.scales.smallest_residual / tolerance);
+        return imbalance(residual, i.scales.smallest_residual / tolerance,
+                         i.scales.round_off());
       }
 
       ForceSize
@@ -178,6 +172,20 @@ namespace abut::shim
       }
 
     private:
+      double imbalance(const la::VectorView &given_residual, const double least,
+                       const double round_off) const
+      {
+        const la::Vector &residual =
+            i.given("imbalance()", "residual", given_residual);
+        la::Vector contact(residual);
+        contact = 0.;
+        i.add_forces(contact);
+        const double size = std::max(contact.l2_norm(), least);
+        contact -= residual;
+        const double rest = contact.l2_norm();
+        return rest <= round_off ? 0. : size > 0. ? rest / size : 1.;
+      }
+
       /** Add the part of the coordinates that stands for the round-off of gaps
        * and strains at points that move. */
       void add_round_off_of_positions(la::Vector &displacement) const

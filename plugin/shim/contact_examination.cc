@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace abut::shim
@@ -74,8 +75,26 @@ namespace abut::shim
       std::string name_;
     };
 
+    template <int dim>
+    void judge_residual(const ResidualCheck<dim> &seen, Findings &findings)
+    {
+      if (!seen.finding().empty())
+        findings.add(ABUT_FAILURE_UNBALANCED,
+                     seen.finding().numbers.front().second <= 0.,
+                     seen.finding().text, seen.finding().numbers);
+      if (seen.lost_displacement() > 0.)
+        findings.add(
+            ABUT_FAILURE_UNBALANCED, true,
+            "Displacements of up to " + number(seen.lost_displacement())
+                + " are prescribed, but the residual R has no forces of them. "
+                  "Assemble K and the loads in one call of "
+                  "distribute_local_to_global() per cell, as K is without the "
+                  "columns of prescribed unknowns, or R from the whole u.",
+            {{"prescribed displacement", seen.lost_displacement()}});
+    }
+
     void judge_strain(const ContactExamination &seen, const bool allow,
-                      Findings &findings)
+                      const bool lacks_prescribed, Findings &findings)
     {
       if (seen.strain <= visible_strain)
         return;
@@ -88,7 +107,10 @@ namespace abut::shim
               + percent(seen.mean_strain)
               + " in the mean; linear theory is valid up to about "
               + percent(visible_strain)
-              + ". Check the units of loads and stiffness"
+              + (lacks_prescribed
+                     ? ". Next to displacements that the residual has no "
+                       "forces of, this is a jump"
+                     : ". Check the units of loads and stiffness")
               + (seen.strain > 3. * seen.mean_strain
                      ? ", or for a singular corner, where the largest strain "
                        "grows with refinement and the mean does not"
@@ -210,15 +232,20 @@ namespace abut::shim
 
     template <int dim>
     void judge_depths(const PairResult<dim> &pair, const double soft,
-                      const DepthScale &scale, Findings &findings)
+                      const bool has_penalty, const DepthScale &scale,
+                      Findings &findings)
     {
       if (scale.is_more(soft, useless))
         findings.add(ABUT_FAILURE_PENALTY, true,
                      pair.name + ": the bodies penetrate each other by "
                          + compared(scale, soft)
-                         + ". The contact is far too soft: use a larger "
-                           "Method/Penalty factor, or Method/Enforcement = "
-                           "augmented lagrangian or lagrange.",
+                         + (has_penalty
+                                ? ". The contact is far too soft: use a larger "
+                                  "Method/Penalty factor, or "
+                                  "Method/Enforcement = augmented lagrangian "
+                                  "or lagrange."
+                                : ". The iteration has not come to its end, or "
+                                  "displacements were changed after it."),
                      {{"penetration", soft}, {"compared with", scale.way}});
       if (scale.is_more(pair.held_inside, useless))
         findings.add(
@@ -451,6 +478,21 @@ namespace abut::shim
                  : 0.;
     }
 
+    /** Bodies of which nothing is prescribed and no rigid motion determined. */
+    template <int dim>
+    std::vector<unsigned int> unsupported_bodies(const ContactProblem<dim> &i)
+    {
+      constexpr unsigned int n_motions = dim == 2 ? 3 : 6;
+      std::map<unsigned int, unsigned int> count;
+      for (const solve::FreeMotion &motion : i.system.undetermined)
+        ++count[motion.body];
+      std::vector<unsigned int> result;
+      for (const auto &[body, n] : count)
+        if (n == n_motions)
+          result.push_back(body);
+      return result;
+    }
+
     template <int dim>
     void examine_membrane(const ContactProblem<dim> &i,
                           const la::Vector &displacement,
@@ -511,6 +553,7 @@ namespace abut::shim
       result.imbalance = i.checks->imbalance(residual);
       judge_balance(result.imbalance, findings);
     }
+    judge_residual(i.residual_check, findings);
     if (can_touch && i.surfaces == nullptr)
     {
       examine_membrane(i, displacement, result);
@@ -520,16 +563,26 @@ namespace abut::shim
                                    displacement, i.input.axisymmetric);
     result.strain = strain.largest;
     result.mean_strain = strain.mean;
-    judge_strain(result, allow_large_strain, findings);
+    judge_strain(result, allow_large_strain,
+                 i.residual_check.lost_displacement() > 0., findings);
     if (!can_touch)
       return result;
-    for (const solve::FreeMotion &motion : i.system.undetermined)
+    const std::vector<unsigned int> alone = unsupported_bodies(i);
+    for (const unsigned int body : alone)
       findings.add(ABUT_FAILURE_FLOATING_BODY, false,
-                   "Loads and contact do not determine a rigid body mode: "
-                       + motion.description
-                       + " without resistance or load. The result has the "
-                         "smallest such motion in the mean square. Support the "
-                         "body in that direction if the motion matters.");
+                   "Body " + std::to_string(body + 1)
+                       + " has no support at all, and loads and contact do not "
+                         "determine where it is: are its boundary values in "
+                         "the constraints?");
+    for (const solve::FreeMotion &motion : i.system.undetermined)
+      if (std::find(alone.begin(), alone.end(), motion.body) == alone.end())
+        findings.add(
+            ABUT_FAILURE_FLOATING_BODY, false,
+            "Loads and contact do not determine a rigid body mode: "
+                + motion.description
+                + " without resistance or load. The result has the "
+                  "smallest such motion in the mean square. Support the "
+                  "body in that direction if the motion matters.");
     result.motions = i.system.solver != nullptr
                          ? i.system.solver->rigid_motions(displacement)
                          : i.system.followed_motions;
@@ -573,7 +626,8 @@ namespace abut::shim
                       i.input.pairs[p].secondary == i.input.pairs[p].primary,
                       surface_pairs[p].has_mean_gaps(), scale, findings);
       judge_rotation(pairs[p], allow_large_strain, findings);
-      judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i), scale,
+      judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i),
+                   abut_law_has_penalty(i.input.method.options.law), scale,
                    findings);
       const auto &narrowest = surface_pairs[p].narrowest;
       judge_between(pairs[p], is_obstacle,

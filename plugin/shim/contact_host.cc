@@ -161,6 +161,8 @@ namespace abut::shim
       check_size(call, "matrix", tangent.matrix().m());
       check_values(tangent.matrix(), name, communicator_);
       check_eliminated(tangent.matrix(), *constraints_, name, communicator_);
+      if (is_coupled())
+        check_coupled(tangent.matrix(), *constraints_, name, communicator_);
       return tangent.matrix();
     }
     const bool is_block = other->m() > 0 && other->m() != n_unknowns_
@@ -177,6 +179,8 @@ namespace abut::shim
                      "a mesh and a ContactAssembler on MPI_COMM_SELF."));
     const la::Matrix &taken = copy.copy(*other, name, owned, communicator_);
     check_eliminated(taken, *constraints_, name, communicator_);
+    if (!is_block && is_coupled())
+      check_coupled(taken, *constraints_, name, communicator_);
     return taken;
   }
 

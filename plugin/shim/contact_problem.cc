@@ -13,10 +13,13 @@
 #include "solve/unsupported_bodies.h"
 #include "solver_space.h"
 
+#include <abut/dealii/coded.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <sstream>
 
 namespace abut::shim
 {
@@ -297,6 +300,54 @@ namespace abut::shim
   }
 
   template <int dim>
+  std::vector<std::string> ContactProblem<dim>::pairs_without_rows() const
+  {
+    std::vector<std::string> result;
+    const std::vector<PairCheck> seen = checks->pairs();
+    for (std::size_t p = 0; p < seen.size(); ++p)
+      if (seen[p].n_rows == 0 && !input.pairs[p].may_be_apart)
+        result.push_back(seen[p].name);
+    return result;
+  }
+
+  template <int dim> void ContactProblem<dim>::check_committed()
+  {
+    if (!committed.is_given() || moves()
+        || !history.knows(ABUT_HISTORY_COMMITTED, rows.mesh))
+      return;
+    constexpr double visible = 1e-2;
+    const int n = rows.coefficients.n_rows();
+    const std::vector<double> pressure =
+        history.pressures(rows.numbers(), rows.placed, ABUT_HISTORY_COMMITTED);
+    std::vector<double> gap(n);
+    rows.coefficients.gap(committed.displacement(), gap.data());
+    const std::vector<int> pair = surfaces->points().row_pairs();
+    const double length =
+        MPI::max(committed.displacement().linfty_norm(), communicator);
+    for (std::size_t p = 0; p < input.pairs.size(); ++p)
+    {
+      double largest = 0.;
+      for (int row = 0; row < n; ++row)
+        if (pair[row] == static_cast<int>(p) && pressure[row] > 0.
+            && rows.coefficients.bilateral()[row] == 0
+            && !rows.coefficients.is_tangent(row))
+          largest = std::max(largest, gap[row]);
+      largest = MPI::max(largest, communicator);
+      if (!(largest > visible * length))
+        continue;
+      std::ostringstream text;
+      text << "points that pressed at the last commit() have gaps of up to "
+           << largest << " at the displacement given to set_committed(), whose "
+           << "largest value is " << length
+           << ". Give it the displacement of that commit(), on this mesh and "
+              "in the numbering of its unknowns.";
+      surfaces->points().checks()[p].warnings.push_back(
+          coded(ABUT_FAILURE_SLIDING, text.str(),
+                {{"gap", largest}, {"displacement", length}}));
+    }
+  }
+
+  template <int dim>
   const RowSource &ContactProblem<dim>::present_source() const
   {
     AssertThrow(source != nullptr,
@@ -527,7 +578,8 @@ namespace abut::shim
   {
     is_started = false;
     system.was_added = false;
-    start_displacement = displacement;
+    start_displacement = present_displacement = displacement;
+    residual_check.clear();
     compute_gap(displacement);
     find_geometry();
   }
@@ -541,6 +593,7 @@ namespace abut::shim
     if (surfaces != nullptr)
       surfaces->multipliers().spread_stiffness(stiffness);
     scales.set(matrix, residual);
+    residual_check.begin(matrix, residual, start_displacement);
     input.method.options.reduce = reduce_over_ranks;
     input.method.options.user = const_cast<MPI_Comm *>(&communicator);
     const bool has_space = surfaces != nullptr && surfaces->set().has_points();

@@ -10,6 +10,7 @@
 #include "handles.h"
 #include "moving_rows.h"
 #include "nitsche_rows.h"
+#include "residual_check.h"
 #include "row_source.h"
 #include "solve/local_elimination.h"
 #include "solve/row_solver.h"
@@ -141,6 +142,11 @@ namespace abut::shim
     /** The same after a call that evaluates the law: a user's own law may
      * fail, and a smaller load step may help. */
     void check_law(const abut_status status) const;
+    /** Names of pairs that nothing of can touch, though it should. */
+    std::vector<std::string> pairs_without_rows() const;
+    /** Warn if the displacement of the last commit() does not belong to the
+     * pressures that were committed. Collective. */
+    void check_committed();
     /** The source of the present rows; throws if there is none. */
     const RowSource &present_source() const;
     /** As ContactHost::check_mesh(), and throw unless there are rows. */
@@ -250,12 +256,14 @@ namespace abut::shim
     GapRaises<dim> raises{*this};
     ContactScales<dim> scales{*this};
     RowSystem system;
+    ResidualCheck<dim> residual_check{host};
 
     ContactHistory history{context.get(), communicator};
     ContactHistory::Penalty penalty; ///< of this iteration
     CommittedState<dim> committed;
     StartValues start;
     la::Vector start_displacement;
+    la::Vector present_displacement; ///< of the last update()
     Handle<abut_strategy> strategy;
     bool is_started = false;
     abut_request request = {};

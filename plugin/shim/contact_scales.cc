@@ -128,6 +128,18 @@ namespace abut::shim
                                    i.communicator);
   }
 
+  template <int dim> double ContactScales<dim>::round_off() const
+  {
+    constexpr double digits = 1e-13;
+    if (law_compliance.size() == 0)
+      return 0.;
+    la::Vector force(i.present_displacement);
+    i.host.constraints().set_zero(force);
+    for (int k = 0; k < la::n_owned(force); ++k)
+      la::data(force)[k] /= la::data(law_compliance)[k];
+    return digits * force.l2_norm();
+  }
+
   template <int dim>
   void ContactScales<dim>::find_compliance(const solve::Stiffness &matrix)
   {

@@ -36,6 +36,10 @@ namespace abut::shim
      * the membrane is moved. Collective. */
     double deformation(const la::Vector &displacement) const;
 
+    /** Norm of forces that are round-off where the iteration has come to.
+     * Collective. */
+    double round_off() const;
+
     double given_length = 0.; ///< 0: none
     /** Compliance of each unknown of this rank, in the matrix that penalties
      * are multiples of; empty: none yet. */

@@ -113,6 +113,36 @@ namespace abut::shim
                communicator);
   }
 
+  void check_coupled(const la::Matrix &matrix,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const std::string &name, const MPI_Comm communicator)
+  {
+    const la::LocalRows rows = la::local_rows(matrix);
+    const dealii::IndexSet owned = la::owned_rows(matrix);
+    Index bad = dealii::numbers::invalid_dof_index;
+    bool is_diagonal = true; // a lumped mass is no elimination
+    for (int r = 0; r < rows.n_rows; ++r)
+    {
+      const int begin = rows.start[r], end = rows.start[r + 1];
+      int k = begin;
+      while (k < end && (rows.column[k] == r || rows.value[k] == 0.))
+        ++k;
+      is_diagonal = is_diagonal && k == end;
+      if (k < end)
+        continue;
+      const Index row = owned.nth_index_in_set(r);
+      if (!constraints.is_constrained(row))
+        bad = std::min(bad, row);
+    }
+    if (dealii::Utilities::MPI::min(int(is_diagonal), communicator) == 1)
+      return;
+    refuse_row(bad, name,
+               "nothing but a diagonal, as if it was eliminated, although the "
+               "constraints given to reinit() do not have it (give reinit() "
+               "those that the matrix is assembled with),",
+               communicator);
+  }
+
   void HostMatrixCopy::clear()
   {
     matrix_.clear();

@@ -26,6 +26,13 @@ namespace abut::shim
                         const dealii::AffineConstraints<double> &constraints,
                         const std::string &name, MPI_Comm communicator);
 
+  /** Throw, on all ranks, if a row that @p constraints do not have is nothing
+   * but its diagonal, naming the first one: the matrix was assembled with
+   * others. O(rows). Collective. */
+  void check_coupled(const la::Matrix &matrix,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const std::string &name, MPI_Comm communicator);
+
   /** A matrix of Abut's type with the values of a host's, whose pattern is kept
    * while the host's is the same. */
   class HostMatrixCopy

@@ -92,8 +92,9 @@ namespace abut::shim
                    : ", more than half of the body's thickness, or at an edge "
                      "or a corner only, within the reach of ")
            << reach
-           << ". Move them apart, or give the pair a larger reach if the "
-              "overlap is meant as interference."
+           << ". Check the boundary ids, as the far sides of two bodies look "
+              "like this. If they do overlap, move them apart, or give the "
+              "pair a larger reach if that is meant as interference."
            << other_unit(secondary, primary);
     }
     else

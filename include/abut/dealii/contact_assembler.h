@@ -97,7 +97,9 @@ namespace abut
     /** The known failure behind the reason, or CYCLE where the iteration
      * converged only by changing rows one by one. */
     abut_failure failure = ABUT_FAILURE_NONE;
-    /** The reason in words: what to try, and what was seen. */
+    /** The reason in words: what to try, and what was seen; of an iteration
+     * that converged, pairs without constraints that are not ContactPair::
+     * may_be_apart. */
     std::string explanation;
     abut_progress progress = {}; ///< how far it has come
   };
@@ -165,7 +167,10 @@ namespace abut
      * the matrix, which is not changed, or a HostOperator. The latter is solved
      * by conjugate gradients with its own preconditioner, and throws for what
      * needs a matrix: Nitsche's method, saddle points, points that move, and
-     * solvers that are not iterative. Throws when the linear solver fails. */
+     * solvers that are not iterative. Throws when the linear solver fails; for
+     * a matrix of other constraints than those of reinit(); and, in the second
+     * call of an iteration, if the residual has changed by a multiple of K du
+     * that is not positive, as one of wrong sign does. */
     virtual LinearReport solve(const Tangent &tangent,
                                const la::VectorView &residual,
                                const la::MutableVectorView &increment);

@@ -59,8 +59,10 @@ namespace abut
      * nodes, are narrower than facets or in the inside of bodies, penetrations
      * compared with the deformation of bodies, and, if
      * @p residual is given (of the host, at @p displacement), forces out of
-     * balance, as after a residual of wrong sign. Whatever contradicts itself
-     * by more than a tenth is an error. Measures go into
+     * balance, as after a residual of wrong sign. So it does of residuals that
+     * were given to solve(): those that do not change as the tangent does, and
+     * those without the forces of prescribed displacements. Whatever
+     * contradicts itself by more than a tenth is an error. Measures go into
      * ContactResults::pairs(), too. To be called after convergence and
      * penetrations(), once per load step; distances of obstacles are evaluated
      * at points of the facets near them, of a membrane in all its cells. Throws
@@ -109,8 +111,9 @@ namespace abut
                              double least) const = 0;
 
     /** The same as a part of the load of the last iteration, or of the contact
-     * forces if these are more; 0 where there is no such balance. About 2 where
-     * the residual has the wrong sign. */
+     * forces if these are more; 0 where there is no such balance, or no more
+     * than round-off is left; 1 where there is neither load nor contact. About
+     * 2 where the residual has the wrong sign. */
     virtual double imbalance(const la::VectorView &residual) const = 0;
 
     /** Size of the products of the entries of @p tangent with @p displacement

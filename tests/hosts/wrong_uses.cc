@@ -1,0 +1,561 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Mistakes of a first program, step-8 with an obstacle or a second body: each
+// is an error or a finding that names its cause, and no answer in silence.
+#include "expect.h"
+
+#include <abut/dealii/contact_assembler.h>
+#include <abut/dealii/rigid_obstacle.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <fstream>
+#include <sstream>
+
+using namespace abut;
+using dealii::Point;
+using dealii::Tensor;
+using hosts::expect;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+  constexpr int dim = 2;
+  enum Side
+  {
+    bottom = 1,
+    lower = 2,
+    upper = 3,
+    top = 4
+  };
+
+  /** What a program does, right by default. */
+  struct Use
+  {
+    bool two_bodies = false;
+    unsigned int n_refinements = 1;
+    bool has_supports = true;
+    bool is_separate = false; ///< loads are assembled in calls of their own
+    double sign = 1.;         ///< R times this; 0: R of the start for ever
+  };
+
+  /** The square of step-8, lambda = mu = 1, fixed below; or another one on it
+   * that is 1.2 wide, 0.01 apart and moved down by 0.05. */
+  class Program
+  {
+  public:
+    explicit Program(const Use &use)
+        : use(use),
+          fe(dealii::FE_Q<dim>(1), dim),
+          dof_handler(mesh),
+          contact(MPI_COMM_SELF)
+    {
+      make_mesh();
+      dof_handler.distribute_dofs(fe);
+      dealii::DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+      if (use.has_supports)
+        prescribe(bottom, {});
+      if (use.two_bodies)
+        prescribe(top, Tensor<1, dim>({0., -0.05}));
+      constraints.close();
+      dealii::DynamicSparsityPattern pattern(dof_handler.n_dofs());
+      dealii::DoFTools::make_sparsity_pattern(dof_handler, pattern);
+      sparsity.copy_from(pattern);
+      matrix.reinit(sparsity);
+      for (Vector *vector : {&u, &load, &residual, &increment, &internal})
+        vector->reinit(dof_handler.n_dofs());
+      assemble();
+      constraints.distribute(u);
+    }
+
+    ContactPair<dim> bodies() const
+    {
+      ContactPair<dim> pair;
+      pair.name = "lower on upper";
+      pair.secondary = {lower};
+      pair.primary = {upper};
+      return pair;
+    }
+
+    static ContactPair<dim> under(const double height)
+    {
+      ContactPair<dim> pair;
+      pair.name = "wall";
+      pair.secondary = {lower};
+      pair.obstacle = std::make_shared<RigidObstacle<dim>>(
+          plane<dim>(Point<dim>(0., height), Tensor<1, dim>({0., -1.})));
+      return pair;
+    }
+
+    void find_residual()
+    {
+      if (use.sign == 0.)
+        return;
+      matrix.vmult(residual, u);
+      residual -= load;
+      constraints.set_zero(residual);
+      residual *= use.sign;
+    }
+
+    void prepare(const ContactPair<dim> &pair)
+    {
+      contact.set_pairs({pair});
+      contact.reinit(mapping, dof_handler, constraints);
+    }
+
+    /** The loop of the document, after prepare(). */
+    IterationReport iterate()
+    {
+      contact.detect(u);
+      do
+      {
+        find_residual();
+        contact.solve(matrix, residual, increment);
+        u += increment;
+        constraints.distribute(u);
+      } while (contact.update(u));
+      find_residual();
+      return contact.iteration();
+    }
+
+    IterationReport solve(const ContactPair<dim> &pair)
+    {
+      prepare(pair);
+      return iterate();
+    }
+
+    /** Sum of the internal forces on a boundary, which come from stresses. */
+    Tensor<1, dim> force_on(const Side side)
+    {
+      internal = 0.;
+      for_each_cell(
+          [&](const auto &dofs, const auto &cell_matrix)
+          {
+            Vector values(dofs.size()), forces(dofs.size());
+            for (unsigned int k = 0; k < dofs.size(); ++k)
+              values(k) = u(dofs[k]);
+            cell_matrix.vmult(forces, values);
+            internal.add(dofs, forces);
+          });
+      Tensor<1, dim> sum;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        dealii::ComponentMask mask(dim, false);
+        mask.set(d, true);
+        for (const auto dof :
+             dealii::DoFTools::extract_boundary_dofs(dof_handler, mask, {side}))
+          sum[d] += internal(dof);
+      }
+      return sum;
+    }
+
+    /** Integral of -pressure() over a boundary. */
+    Tensor<1, dim> integral_on(const Side side) const
+    {
+      Vector p(dof_handler.n_dofs());
+      la::copy(contact.results().pressure(), p);
+      const dealii::QGauss<dim - 1> rule(2);
+      dealii::FEFaceValues<dim> values(
+          mapping, fe, rule, dealii::update_values | dealii::update_JxW_values);
+      std::vector<Tensor<1, dim>> at(rule.size());
+      Tensor<1, dim> sum;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && face->boundary_id() == side)
+          {
+            values.reinit(cell, face);
+            values[dealii::FEValuesExtractors::Vector(0)].get_function_values(
+                p, at);
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              sum -= values.JxW(q) * at[q];
+          }
+      return sum;
+    }
+
+    const Use use;
+    dealii::Triangulation<dim> mesh;
+    const dealii::FESystem<dim> fe;
+    dealii::DoFHandler<dim> dof_handler;
+    const dealii::MappingQ<dim> mapping{1};
+    dealii::AffineConstraints<double> constraints;
+    dealii::SparsityPattern sparsity;
+    dealii::SparseMatrix<double> matrix;
+    Vector u, load, residual, increment, internal;
+    ContactAssembler<dim> contact;
+
+  private:
+    void make_mesh()
+    {
+      dealii::Triangulation<dim> one, other, both;
+      dealii::GridGenerator::subdivided_hyper_rectangle(
+          one, {4, 4}, Point<dim>(-1., -1.), Point<dim>(1., 1.));
+      dealii::GridGenerator::subdivided_hyper_rectangle(
+          other, {3, 3}, Point<dim>(-0.6, 1.01), Point<dim>(0.6, 2.01));
+      if (use.two_bodies)
+        dealii::GridGenerator::merge_triangulations(one, other, both);
+      else
+        both.copy_triangulation(one);
+      for (const auto &cell : both.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+          {
+            const double y = face->center()[1];
+            face->set_boundary_id(y < -0.99                   ? bottom
+                                  : std::abs(y - 1.) < 1e-9   ? lower
+                                  : std::abs(y - 1.01) < 1e-9 ? upper
+                                  : y > 2.                    ? top
+                                                              : 0);
+          }
+      mesh.copy_triangulation(both);
+      mesh.refine_global(use.n_refinements);
+    }
+
+    void prescribe(const Side side, const Tensor<1, dim> &value)
+    {
+      dealii::VectorTools::interpolate_boundary_values(
+          mapping, dof_handler, side,
+          dealii::Functions::ConstantFunction<dim>(&value[0], dim),
+          constraints);
+    }
+
+    template <typename Function>
+    void for_each_cell(const Function &function) const
+    {
+      const dealii::QGauss<dim> rule(2);
+      dealii::FEValues<dim> values(mapping, fe, rule,
+                                   dealii::update_gradients
+                                       | dealii::update_JxW_values);
+      const dealii::FEValuesExtractors::Vector vector(0);
+      const unsigned int n = fe.n_dofs_per_cell();
+      std::vector<dealii::types::global_dof_index> dofs(n);
+      dealii::FullMatrix<double> cell_matrix(n, n);
+      for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        values.reinit(cell);
+        cell_matrix = 0.;
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              cell_matrix(i, j) +=
+                  values.JxW(q)
+                  * (2.
+                         * (values[vector].symmetric_gradient(i, q)
+                            * values[vector].symmetric_gradient(j, q))
+                     + values[vector].divergence(i, q)
+                           * values[vector].divergence(j, q));
+        cell->get_dof_indices(dofs);
+        function(dofs, cell_matrix);
+      }
+    }
+
+    void assemble()
+    {
+      for_each_cell(
+          [&](const auto &dofs, const auto &cell_matrix)
+          {
+            const Vector no_load(dofs.size());
+            if (use.is_separate)
+            {
+              constraints.distribute_local_to_global(cell_matrix, dofs, matrix);
+              constraints.distribute_local_to_global(no_load, dofs, load);
+            }
+            else
+              constraints.distribute_local_to_global(cell_matrix, no_load, dofs,
+                                                     matrix, load);
+          });
+    }
+  };
+
+  /** The texts of the findings of examine() with this code, one a line. */
+  std::string findings(Program &program, const abut_failure failure,
+                       const bool is_error)
+  {
+    std::string result;
+    for (const ContactFinding &finding :
+         program.contact.checks().examine(program.u, program.residual).findings)
+      if (finding.failure == failure && finding.is_error == is_error)
+        result += finding.text + '\n';
+    return result;
+  }
+
+  /** What a call throws; empty: nothing. */
+  template <typename Function> std::string message_of(const Function &call)
+  {
+    try
+    {
+      call();
+    }
+    catch (const std::exception &error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  void expect_words(const std::string &text,
+                    const std::vector<std::string> &words)
+  {
+    for (const std::string &word : words)
+      expect(text.find(word) != std::string::npos,
+             "'" + word + "' in '" + text + "'");
+  }
+
+  /** Nothing but an obstacle drives the body: there is no load that forces out
+   * of balance could be compared with. */
+  void check_residual()
+  {
+    Program good({});
+    const IterationReport report = good.solve(Program::under(0.999));
+    expect(report.reason == ABUT_REASON_CONVERGED
+               && report.explanation == "converged",
+           "the right sign: " + report.explanation);
+    const auto pair = good.contact.results().pairs()[0];
+    const Tensor<1, dim> reaction = good.force_on(bottom);
+    expect(pair.secondary_force.norm() > 1e-3
+               && (pair.secondary_force + reaction).norm()
+                      < 1e-9 * reaction.norm(),
+           "contact and support are in balance");
+    const ContactExamination seen =
+        good.contact.checks().examine(good.u, good.residual);
+    expect(seen.findings.empty() && seen.imbalance < 1e-9,
+           "nothing is found in a right answer");
+
+    Use use;
+    use.sign = -1.;
+    expect_words(
+        message_of([&] { Program(use).solve(Program::under(0.999)); }),
+        {"ABUT-F38", "changes by -1 times K du", "internal minus external"});
+    use.sign = 0.;
+    expect_words(message_of([&] { Program(use).solve(Program::under(0.999)); }),
+                 {"ABUT-F38", "changes by 0 times K du", "after each step"});
+    use.sign = 2.;
+    Program doubled(use);
+    doubled.solve(Program::under(0.999));
+    expect_words(findings(doubled, ABUT_FAILURE_UNBALANCED, false),
+                 {"changes by 2 times K du"});
+
+    // Forces where there is neither load nor contact.
+    Program apart({});
+    apart.solve(Program::under(1.01));
+    apart.u(apart.dof_handler.n_dofs() - 1) = 0.1;
+    apart.find_residual();
+    expect(apart.contact.checks().imbalance(apart.residual) == 1.,
+           "forces that nothing balances");
+  }
+
+  /** K is without the columns of prescribed unknowns, and R has no forces of
+   * them either. */
+  void check_prescribed()
+  {
+    for (const bool is_separate : {false, true})
+    {
+      Use use;
+      use.two_bodies = true;
+      use.is_separate = is_separate;
+      Program program(use);
+      const IterationReport report = program.solve(program.bodies());
+      expect(report.reason == ABUT_REASON_CONVERGED, "prescribed displacement");
+      const std::string lost = findings(program, ABUT_FAILURE_UNBALANCED, true);
+      expect(lost.empty() != is_separate, "what is said of R: " + lost);
+      if (is_separate)
+      {
+        expect_words(lost, {"0.05", "distribute_local_to_global()"});
+        expect_words(findings(program, ABUT_FAILURE_LARGE_STRAIN, false),
+                     {"residual has no forces of"});
+      }
+    }
+  }
+
+  /** The secondary surface is larger than the primary, whose end is inside of
+   * facets: the integral of the pressures is the force all the same. */
+  void check_pressure()
+  {
+    for (const char *const law : {"lagrange", "penalty"})
+      for (const auto discretisation :
+           {ABUT_DISCRETISATION_DUAL_MORTAR, ABUT_DISCRETISATION_MORTAR,
+            ABUT_DISCRETISATION_QUADRATURE_POINT})
+        for (const unsigned int refinements : {1, 2, 3})
+        {
+          const bool is_penalty = std::string(law) == "penalty";
+          if (!is_penalty
+              && discretisation == ABUT_DISCRETISATION_QUADRATURE_POINT)
+            continue;
+          Use use;
+          use.two_bodies = true;
+          use.n_refinements = refinements;
+          double largest[2] = {0., 0.};
+          for (const bool exchanged : {false, true})
+          {
+            Program program(use);
+            MethodParameters method;
+            method.options.law = abut_law_find(law);
+            method.discretisation = discretisation;
+            program.contact.set_parameters(method, SolverParameters());
+            ContactPair<dim> pair = program.bodies();
+            if (exchanged)
+              std::swap(pair.secondary, pair.primary);
+            program.solve(pair);
+            const auto result = program.contact.results().pairs()[0];
+            const Side side = exchanged ? upper : lower;
+            const Tensor<1, dim> force = result.secondary_force;
+            expect((force + program.force_on(exchanged ? top : bottom)).norm()
+                       < 1e-8 * force.norm(),
+                   "force and reaction");
+            const double off =
+                (program.integral_on(side) - force).norm() / force.norm();
+            expect(off < 1e-10,
+                   std::string(law) + ", " + discretisation_name(discretisation)
+                       + ", " + std::to_string(refinements)
+                       + " refinements: the integral of pressures differs from "
+                         "the force by "
+                       + std::to_string(off));
+            largest[exchanged] = result.pressure;
+          }
+          // Pressures at the rim grow with refinement, whichever side has them.
+          expect(largest[0] < 1.5 * largest[1] && largest[1] < 3. * largest[0],
+                 "largest pressures " + std::to_string(largest[0]) + " and "
+                     + std::to_string(largest[1]));
+        }
+  }
+
+  void check_pairs()
+  {
+    // Half a facet is 0.125.
+    Program far({});
+    const std::string said = far.solve(Program::under(1.5)).explanation;
+    expect_words(said, {"converged", "'wall'", "no node"});
+    ContactPair<dim> late = Program::under(1.5);
+    late.may_be_apart = true;
+    expect(Program({}).solve(late).explanation == "converged",
+           "a wall that may be apart");
+
+    Use use;
+    use.two_bodies = true;
+    Program program(use);
+    ContactPair<dim> wrong = program.bodies();
+    wrong.secondary = {bottom};
+    wrong.primary = {top};
+    expect_words(message_of([&] { program.solve(wrong); }),
+                 {"ABUT-F11", "boundary ids"});
+  }
+
+  void check_constraints()
+  {
+    Use use;
+    use.has_supports = false;
+    Program floating(use);
+    floating.solve(Program::under(0.98));
+    const std::string lone =
+        findings(floating, ABUT_FAILURE_FLOATING_BODY, false);
+    expect_words(lone, {"Body 1 has no support at all", "boundary values"});
+    expect(std::count(lone.begin(), lone.end(), '\n') == 1, "once: " + lone);
+    expect(findings(floating, ABUT_FAILURE_UNBALANCED, true).empty()
+               && findings(floating, ABUT_FAILURE_UNBALANCED, false).empty(),
+           "round-off is no lack of balance");
+
+    Program program({});
+    program.prepare(Program::under(0.98));
+    dealii::AffineConstraints<double> other, open;
+    open.add_line(0);
+    expect_words(message_of(
+                     [&] {
+                       program.contact.reinit(program.mapping,
+                                              program.dof_handler, open);
+                     }),
+                 {"close()"});
+    other.close();
+    program.contact.reinit(program.mapping, program.dof_handler, other);
+    expect_words(message_of([&] { program.iterate(); }),
+                 {"matrix given to solve()", "but a diagonal", "reinit()"});
+  }
+
+  void check_history()
+  {
+    Use use;
+    use.two_bodies = true;
+    Program program(use);
+    ContactPair<dim> rough = program.bodies();
+    auto friction = std::make_shared<Friction<dim>>();
+    friction->coefficient = [](const Point<dim> &) { return 0.3; };
+    rough.friction = friction;
+    program.solve(rough);
+    program.contact.commit(program.u);
+    std::stringstream saved;
+    program.contact.state().save(saved);
+
+    const auto load = [&](const ContactPair<dim> &pair, const Vector &committed)
+    {
+      std::istringstream stream(saved.str());
+      Program again(use);
+      again.u = program.u;
+      again.prepare(pair);
+      again.contact.state().load(stream);
+      again.contact.state().set_committed(committed);
+      again.contact.detect(again.u);
+      std::string warnings;
+      const PairCheck seen = again.contact.checks().pairs()[0];
+      for (const Message &warning : seen.warnings)
+        warnings += warning.text;
+      return warnings;
+    };
+    expect(load(rough, program.u).empty(), "the same pair");
+    ContactPair<dim> other = program.bodies();
+    expect_words(message_of([&] { load(other, program.u); }),
+                 {"lower on upper", "friction"});
+    other = rough;
+    std::swap(other.secondary, other.primary);
+    expect_words(message_of([&] { load(other, program.u); }),
+                 {"lower on upper", "secondary"});
+    // As in another numbering of the unknowns.
+    Vector reversed(program.u);
+    for (unsigned int k = 0; k < reversed.size(); ++k)
+      reversed(k) = program.u(reversed.size() - 1 - k);
+    expect_words(load(rough, reversed), {"set_committed()", "numbering"});
+
+    program.prepare(rough);
+    std::ifstream none("there is no such file");
+    expect_words(message_of([&] { program.contact.state().load(none); }),
+                 {"empty or not open"});
+  }
+
+  void check_shapes()
+  {
+    const Point<2> at(1., 4.);
+    std::vector<double> distance;
+    RigidObstacle<2>(sphere<2>(Point<2>(1., 1.), 0.5)).distance({at}, distance);
+    expect(std::abs(distance[0] - 2.5) < 1e-15, "a disc");
+    RigidObstacle<2>(cylinder<2>(Point<2>(1., 1.), Tensor<1, 2>(), 0.5))
+        .distance({at}, distance);
+    expect(std::abs(distance[0] - 2.5) < 1e-15, "a cylinder in the plane");
+    RigidObstacle<3>(
+        cylinder<3>(Point<3>(1., 7., 1.), Tensor<1, 3>({0., 2., 0.}), 0.5))
+        .distance({Point<3>(1., 0., 4.)}, distance);
+    expect(std::abs(distance[0] - 2.5) < 1e-15, "a cylinder");
+    RigidObstacle<3>(sphere<3>(Point<3>(1., 0., 1.), 0.5))
+        .distance({Point<3>(1., 0., 4.)}, distance);
+    expect(std::abs(distance[0] - 2.5) < 1e-15, "a ball");
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_residual();
+  check_prescribed();
+  check_pressure();
+  check_pairs();
+  check_constraints();
+  check_history();
+  check_shapes();
+  return hosts::good ? 0 : 1;
+}
