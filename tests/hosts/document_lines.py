@@ -9,7 +9,8 @@ import pathlib
 import re
 import sys
 
-HEAD = """#include <deal.II/dofs/dof_handler.h>
+HEAD = """#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <iostream>
@@ -76,15 +77,28 @@ void without_matrix(abut::ContactAssembler<dim> &contact, YourOperator &K,
 }
 
 template <int dim>
-void loaded(ParameterHandler &prm, abut::ContactPair<dim> &pair,
-            const abut_obstacle_shape &wall)
+void save_run(const IndexSet &owned, const IndexSet &relevant,
+              const MPI_Comm communicator,
+              parallel::distributed::Triangulation<dim> &triangulation,
+              const DoFHandler<dim> &dof_handler,
+              abut::ContactAssembler<dim> &contact, const la::Vector &u)
 {
 @7@
 }
 
-template <int dim> void membrane(abut::ContactAssembler<dim> &contact)
+template <int dim>
+void load_run(parallel::distributed::Triangulation<dim> &triangulation,
+              const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
+              const AffineConstraints<double> &constraints,
+              abut::ContactAssembler<dim> &contact, la::Vector &u,
+              const std::function<void()> &prepare)
 {
 @8@
+}
+
+template <int dim> void membrane(abut::ContactAssembler<dim> &contact)
+{
+@9@
 }
 """
 TAIL = """
@@ -100,8 +114,15 @@ template void pieces(abut::ContactAssembler<2> &, la::Vector &, la::Matrix &,
                      la::Vector &, la::Vector &, la::Vector &, double);
 template void without_matrix(abut::ContactAssembler<3> &, YourOperator &,
                              la::Vector &, la::Vector &, abut::HostProblem &);
-template void loaded(ParameterHandler &, abut::ContactPair<3> &,
-                     const abut_obstacle_shape &);
+template void save_run(const IndexSet &, const IndexSet &, MPI_Comm,
+                       parallel::distributed::Triangulation<2> &,
+                       const DoFHandler<2> &, abut::ContactAssembler<2> &,
+                       const la::Vector &);
+template void load_run(parallel::distributed::Triangulation<2> &,
+                       const Mapping<2> &, const DoFHandler<2> &,
+                       const AffineConstraints<double> &,
+                       abut::ContactAssembler<2> &, la::Vector &,
+                       const std::function<void()> &);
 template void membrane(abut::ContactAssembler<2> &);
 """
 
@@ -109,7 +130,7 @@ template void membrane(abut::ContactAssembler<2> &);
 def main():
     source, output = map(pathlib.Path, sys.argv[1:])
     blocks = re.findall(r"```cpp \{show\}\n(.*?)```", source.read_text(), re.DOTALL)
-    if len(blocks) != len(re.findall(r"@\d@", HEAD)):
+    if len(blocks) != len(re.findall(r"@\d+@", HEAD)):
         sys.exit(f"{len(blocks)} blocks of C++ lines in {source}")
     include = re.compile(r"^#include.*\n", re.MULTILINE)
     text = HEAD.replace("@INCLUDES@", "".join(
