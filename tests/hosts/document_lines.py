@@ -96,9 +96,16 @@ void load_run(parallel::distributed::Triangulation<dim> &triangulation,
 @8@
 }
 
-template <int dim> void membrane(abut::ContactAssembler<dim> &contact)
+template <int dim>
+void loaded(ParameterHandler &prm, abut::ContactPair<dim> &pair,
+            const abut_obstacle_shape &wall)
 {
 @9@
+}
+
+template <int dim> void membrane(abut::ContactAssembler<dim> &contact)
+{
+@10@
 }
 """
 TAIL = """
@@ -123,6 +130,8 @@ template void load_run(parallel::distributed::Triangulation<2> &,
                        const AffineConstraints<double> &,
                        abut::ContactAssembler<2> &, la::Vector &,
                        const std::function<void()> &);
+template void loaded(ParameterHandler &, abut::ContactPair<3> &,
+                     const abut_obstacle_shape &);
 template void membrane(abut::ContactAssembler<2> &);
 """
 
