@@ -312,7 +312,7 @@ namespace abut::shim
 
   template <int dim> void ContactProblem<dim>::check_committed()
   {
-    if (!committed.is_given() || moves()
+    if (surfaces == nullptr || !committed.is_given() || moves()
         || !history.knows(ABUT_HISTORY_COMMITTED, rows.mesh))
       return;
     constexpr double visible = 1e-2;
