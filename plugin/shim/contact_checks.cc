@@ -126,7 +126,8 @@ namespace abut::shim
       double imbalance(const la::VectorView &given_residual,
                        const double least) const override
       {
-        return imbalance(given_residual, least, 0.);
+        const auto [rest, size] = balance(given_residual, least);
+        return size > 0. ? rest / size : 0.;
       }
 
       double imbalance(const la::VectorView &residual) const override
@@ -135,8 +136,9 @@ namespace abut::shim
         if (!i.is_started
             || (i.input.is_nitsche() && i.input.method.nitsche_theta != 0.))
           return 0.;
-        return imbalance(residual, i.scales.smallest_residual / tolerance,
-                         i.scales.round_off());
+        const auto [rest, size] =
+            balance(residual, i.scales.smallest_residual / tolerance);
+        return rest <= i.scales.round_off() ? 0. : size > 0. ? rest / size : 1.;
       }
 
       ForceSize
@@ -172,8 +174,11 @@ namespace abut::shim
       }
 
     private:
-      double imbalance(const la::VectorView &given_residual, const double least,
-                       const double round_off) const
+      /** Norms of what is out of balance, and of the contact forces or @p
+       * least.
+       */
+      std::pair<double, double> balance(const la::VectorView &given_residual,
+                                        const double least) const
       {
         const la::Vector &residual =
             i.given("imbalance()", "residual", given_residual);
@@ -182,8 +187,7 @@ namespace abut::shim
         i.add_forces(contact);
         const double size = std::max(contact.l2_norm(), least);
         contact -= residual;
-        const double rest = contact.l2_norm();
-        return rest <= round_off ? 0. : size > 0. ? rest / size : 1.;
+        return {contact.l2_norm(), size};
       }
 
       /** Add the part of the coordinates that stands for the round-off of gaps

@@ -147,6 +147,36 @@ namespace abut::shim
   }
 
   template <int dim>
+  void ContactHost<dim>::check_coupled(const la::Matrix &matrix,
+                                       const std::string &name) const
+  {
+    const unsigned int n_components =
+        dof_handler_->get_fe_collection().n_components();
+    if (n_components != 1 && n_components != dim)
+      return;
+    std::set<global_dof_index> lone =
+        lone_rows(matrix, *constraints_, communicator_);
+    std::vector<global_dof_index> dofs;
+    for (const auto &cell : dof_handler_->active_cell_iterators())
+    {
+      if (lone.empty() || cell->is_artificial())
+        continue;
+      const auto &fe = cell->get_fe();
+      dofs.resize(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      for (unsigned int k = 0; k < dofs.size(); ++k)
+        for (unsigned int l = 0; l < dofs.size(); ++l)
+          if (constraints_->is_constrained(dofs[l])
+              && fe.system_to_component_index(l).first
+                     == fe.system_to_component_index(k).first)
+            lone.erase(dofs[k]);
+    }
+    const global_dof_index bad =
+        lone.empty() ? dealii::numbers::invalid_dof_index : *lone.begin();
+    refuse_lone_row(bad, name, communicator_);
+  }
+
+  template <int dim>
   solve::Stiffness ContactHost<dim>::stiffness(const std::string &call,
                                                const Tangent &tangent,
                                                HostMatrixCopy &copy) const
@@ -161,8 +191,7 @@ namespace abut::shim
       check_size(call, "matrix", tangent.matrix().m());
       check_values(tangent.matrix(), name, communicator_);
       check_eliminated(tangent.matrix(), *constraints_, name, communicator_);
-      if (is_coupled())
-        check_coupled(tangent.matrix(), *constraints_, name, communicator_);
+      check_coupled(tangent.matrix(), name);
       return tangent.matrix();
     }
     const bool is_block = other->m() > 0 && other->m() != n_unknowns_
@@ -179,8 +208,8 @@ namespace abut::shim
                      "a mesh and a ContactAssembler on MPI_COMM_SELF."));
     const la::Matrix &taken = copy.copy(*other, name, owned, communicator_);
     check_eliminated(taken, *constraints_, name, communicator_);
-    if (!is_block && is_coupled())
-      check_coupled(taken, *constraints_, name, communicator_);
+    if (!is_block)
+      check_coupled(taken, name);
     return taken;
   }
 

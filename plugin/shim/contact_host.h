@@ -109,13 +109,11 @@ namespace abut::shim
     /** Throw if @p what is not of the present unknowns. */
     void check_size(const std::string &call, const std::string &what,
                     dealii::types::global_dof_index size) const;
-    /** Whether each unknown has forces on others: those of other fields than a
-     * displacement may be alone. */
-    bool is_coupled() const
-    {
-      const unsigned int n = dof_handler_->get_fe_collection().n_components();
-      return n == 1 || n == dim;
-    }
+    /** Throw, on all ranks, if a free unknown with nothing but free ones of its
+     * component around it has no force on others: translations would need a
+     * force, so that it is eliminated. Unknowns of other fields than a
+     * displacement may be alone. Collective. */
+    void check_coupled(const la::Matrix &matrix, const std::string &name) const;
     /** Unknowns of the displacement if they come before all others, else 0. */
     dealii::types::global_dof_index displacement_block() const;
     solve::Stiffness stiffness(const std::string &call, const Tangent &tangent,

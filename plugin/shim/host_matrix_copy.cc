@@ -113,13 +113,14 @@ namespace abut::shim
                communicator);
   }
 
-  void check_coupled(const la::Matrix &matrix,
-                     const dealii::AffineConstraints<double> &constraints,
-                     const std::string &name, const MPI_Comm communicator)
+  std::set<Index>
+  lone_rows(const la::Matrix &matrix,
+            const dealii::AffineConstraints<double> &constraints,
+            const MPI_Comm communicator)
   {
     const la::LocalRows rows = la::local_rows(matrix);
     const dealii::IndexSet owned = la::owned_rows(matrix);
-    Index bad = dealii::numbers::invalid_dof_index;
+    std::set<Index> result;
     bool is_diagonal = true; // a lumped mass is no elimination
     for (int r = 0; r < rows.n_rows; ++r)
     {
@@ -128,15 +129,18 @@ namespace abut::shim
       while (k < end && (rows.column[k] == r || rows.value[k] == 0.))
         ++k;
       is_diagonal = is_diagonal && k == end;
-      if (k < end)
-        continue;
-      const Index row = owned.nth_index_in_set(r);
-      if (!constraints.is_constrained(row))
-        bad = std::min(bad, row);
+      if (k == end && !constraints.is_constrained(owned.nth_index_in_set(r)))
+        result.insert(owned.nth_index_in_set(r));
     }
     if (dealii::Utilities::MPI::min(int(is_diagonal), communicator) == 1)
-      return;
-    refuse_row(bad, name,
+      result.clear();
+    return result;
+  }
+
+  void refuse_lone_row(const Index row, const std::string &name,
+                       const MPI_Comm communicator)
+  {
+    refuse_row(row, name,
                "nothing but a diagonal, as if it was eliminated, although the "
                "constraints given to reinit() do not have it (give reinit() "
                "those that the matrix is assembled with),",

@@ -6,6 +6,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,18 @@ namespace abut::shim
                         const dealii::AffineConstraints<double> &constraints,
                         const std::string &name, MPI_Comm communicator);
 
-  /** Throw, on all ranks, if a row that @p constraints do not have is nothing
-   * but its diagonal, naming the first one: the matrix was assembled with
-   * others. O(rows). Collective. */
-  void check_coupled(const la::Matrix &matrix,
-                     const dealii::AffineConstraints<double> &constraints,
-                     const std::string &name, MPI_Comm communicator);
+  /** Rows of this rank that @p constraints do not have and that are nothing but
+   * their diagonal; none of a matrix that is diagonal on all ranks. O(rows).
+   * Collective. */
+  std::set<dealii::types::global_dof_index>
+  lone_rows(const la::Matrix &matrix,
+            const dealii::AffineConstraints<double> &constraints,
+            MPI_Comm communicator);
+
+  /** Throw, on all ranks, if one of them names a row that only matrices of
+   * other constraints have, invalid_dof_index: none. Collective. */
+  void refuse_lone_row(dealii::types::global_dof_index row,
+                       const std::string &name, MPI_Comm communicator);
 
   /** A matrix of Abut's type with the values of a host's, whose pattern is kept
    * while the host's is the same. */

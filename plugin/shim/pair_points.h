@@ -227,8 +227,9 @@ namespace abut::shim
     /** Part of it that a point at a node of this rank stands for. */
     double coverage(const PointRow<dim> &row) const
     {
-      const double area = node_area(row.place.node);
-      return area > 0. ? view_.weight[row.point] / area : 1.;
+      const double area = node_area(row.place.node),
+                   weight = view_.weight[row.point];
+      return area > weight ? weight / area : 1.;
     }
 
     /** Keep those rows only; see abut_points_filter(). */

@@ -127,23 +127,30 @@ namespace abut::shim
   {
     // Forces of nodes by their areas, so that the integral is the force where
     // the other side covers a part of these.
-    la::Vector result = field();
+    la::Vector result = field(), weight = field();
     const auto add =
         [&](const PointRow<dim> &i, const NodeIndex node, const double share)
     {
-      const double force =
-          share * points_.view().weight[i.point] * row_pressure[i.row];
+      const double w = share * points_.view().weight[i.point];
       for (unsigned int d = 0; d < dim; ++d)
-        result(surface_.nodes[node].dof[d]) += force * i.direction[d];
+        result(surface_.nodes[node].dof[d]) +=
+            w * row_pressure[i.row] * i.direction[d];
+      if (static_cast<std::size_t>(points_.view().component_start[i.point])
+          == i.row)
+        weight(surface_.nodes[node].dof[0]) += w;
     };
     points_.for_each_row([&](const PointRow<dim> &row)
                          { for_each_share_of(row, add); });
     result.compress(dealii::VectorOperation::add);
+    weight.compress(dealii::VectorOperation::add);
     for (std::size_t n = 0; n < surface_.nodes.size(); ++n)
     {
       if (!points_.set().is_owned(static_cast<NodeIndex>(n)))
         continue;
-      const double area = points_.node_area(static_cast<NodeIndex>(n));
+      // Dual functions of facets on an axis have more than the nodes' areas.
+      const double area =
+          std::max(points_.node_area(static_cast<NodeIndex>(n)),
+                   static_cast<double>(weight(surface_.nodes[n].dof[0])));
       for (unsigned int d = 0; d < dim && area > 0.; ++d)
         result(surface_.nodes[n].dof[d]) =
             result(surface_.nodes[n].dof[d]) / area;
