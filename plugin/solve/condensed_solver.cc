@@ -571,7 +571,7 @@ namespace abut::solve
                                                   LinearReport &report) const
   {
     // Newton's method shall take the same steps.
-    constexpr double part = 1e-3, round_off = 1e-14;
+    constexpr double part = 1e-5, round_off = 1e-14;
     NearControl control(std::min(
         tolerance, std::max(part * tolerance, round_off * rhs.l2_norm())));
     LinearReport count;
