@@ -192,7 +192,7 @@ namespace abut
     i.abandon_iteration();
     i.start_displacement = la::Vector();
     i.present_displacement = la::Vector();
-    i.residual_check.clear();
+    i.residual_check.clear(true);
     i.committed.leave_mesh();
     i.rows.slip_reference = {};
     i.scales.law_compliance = la::Vector();

@@ -138,7 +138,7 @@ namespace abut::shim
           return 0.;
         const auto [rest, size] =
             balance(residual, i.scales.smallest_residual / tolerance);
-        return rest <= i.scales.round_off() ? 0. : size > 0. ? rest / size : 1.;
+        return rest <= i.scales.round_off() || size == 0. ? 0. : rest / size;
       }
 
       ForceSize

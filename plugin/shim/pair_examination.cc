@@ -219,39 +219,6 @@ namespace abut::shim
   }
 
   template <int dim>
-  void PairExamination<dim>::find_extremes(
-      const double *row_pressure, const std::uint8_t *row_state,
-      std::vector<PairResult<dim>> &results) const
-  {
-    double square = 0.; // of the traction of a point
-    points_.for_each_row(
-        [&](const PointRow<dim> &row)
-        {
-          // The force of a node by its area, as the field of pressures has it.
-          const double p = row_pressure[row.row]
-                           * (row.place.node < 0 ? 1. : points_.coverage(row));
-          if (points_.is_tangent(row))
-          {
-            double &largest = results[row.place.pair].traction;
-            square += p * p;
-            largest = std::max(largest, std::sqrt(square));
-            return;
-          }
-          square = 0.;
-          const bool is_closed = row_state == nullptr
-                                     ? p != 0.
-                                     : row_state[row.row] != ABUT_STATE_OPEN;
-          PairResult<dim> &result = results[row.place.pair];
-          result.pressure = std::max(result.pressure, p);
-          if (pairs_[row.place.pair].data.tied)
-            return;
-          result.largest_tension = std::max(result.largest_tension, -p);
-          if (is_closed)
-            result.least_pressure = std::min(result.least_pressure, p);
-        });
-  }
-
-  template <int dim>
   std::vector<PairResult<dim>>
   PairExamination<dim>::results(const double *row_pressure,
                                 const double *row_gap,
@@ -275,7 +242,9 @@ namespace abut::shim
       result.n_active = sum.n_active;
       result.covered_area = sum.covered_area;
       result.contact_area = sum.contact_area;
-      result.least_pressure = INFINITY;
+      result.pressure = sum.pressure;
+      result.least_pressure = sum.least_pressure;
+      result.largest_tension = sum.largest_tension;
       result.penetration = sum.penetration;
       result.initial_gap_work = sum.initial_gap_work;
       copy_forces(sum.secondary, result.secondary_force,
@@ -293,7 +262,6 @@ namespace abut::shim
                     [](const SurfacePair<dim> &pair)
                     { return pair.data.friction != nullptr; }))
       add_friction(points_, row_pressure, row_gap, row_state, results);
-    find_extremes(row_pressure, row_state, results);
     reduce(results, host_.communicator);
     for (std::size_t p = 0; p < pairs_.size(); ++p)
     {

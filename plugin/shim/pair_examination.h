@@ -47,11 +47,6 @@ namespace abut::shim
                                          const std::uint8_t *row_state) const;
 
   private:
-    /** Find the largest and least pressures, and the largest tractions, of this
-     * rank. */
-    void find_extremes(const double *row_pressure,
-                       const std::uint8_t *row_state,
-                       std::vector<PairResult<dim>> &results) const;
     /** Measure the rotation of directions since rows were made. Collective. */
     void find_rotations(const NodePositions<dim> &nodes,
                         const double *row_pressure,

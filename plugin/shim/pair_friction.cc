@@ -297,6 +297,7 @@ namespace abut::shim
       PairResult<dim> &result = results[p];
       result.normal_force = sums[p].normal_force;
       result.friction_force = sums[p].friction_force;
+      result.traction = sums[p].traction;
       result.dissipation = sums[p].dissipation;
       result.shared_stick_force = sums[p].shared_stick_force;
       result.n_slipping = sums[p].n_slipping;

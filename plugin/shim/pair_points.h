@@ -224,14 +224,6 @@ namespace abut::shim
      * covered or not: what its force is divided by. */
     double node_area(NodeIndex node) const;
 
-    /** Part of it that a point at a node of this rank stands for. */
-    double coverage(const PointRow<dim> &row) const
-    {
-      const double area = node_area(row.place.node),
-                   weight = view_.weight[row.point];
-      return area > weight ? weight / area : 1.;
-    }
-
     /** Keep those rows only; see abut_points_filter(). */
     void filter(const std::vector<std::uint8_t> &keep);
 

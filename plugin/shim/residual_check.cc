@@ -99,8 +99,9 @@ namespace abut::shim
     }
   } // namespace
 
-  template <int dim> void ResidualCheck<dim>::clear()
+  template <int dim> void ResidualCheck<dim>::clear(const bool is_new_mesh)
   {
+    has_prescribed_ = has_prescribed_ && !is_new_mesh;
     finding_ = Message();
     lost_ = 0.;
     residual_ = start_ = la::Vector();
@@ -114,7 +115,8 @@ namespace abut::shim
     clear();
     residual_ = residual;
     start_ = displacement;
-    find_lost(matrix, residual, displacement);
+    if (!has_prescribed_)
+      find_lost(matrix, residual, displacement);
   }
 
   template <int dim>
@@ -223,6 +225,7 @@ namespace abut::shim
         && std::sqrt(sums[0]) > round_off * MPI::max(scale, communicator)
         && sums[1] < nothing * nothing * sums[0])
       lost_ = largest;
+    has_prescribed_ = lost_ == 0.;
   }
 
   template class ResidualCheck<2>;

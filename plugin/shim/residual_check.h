@@ -20,8 +20,9 @@ namespace abut::shim
     {
     }
 
-    /** Forget what was found. */
-    void clear();
+    /** Forget what was found; on a new mesh or with other constraints, also
+     * that prescribed displacements were in R. */
+    void clear(bool is_new_mesh = false);
 
     /** Begin an iteration with its first K and R, at a displacement.
      * Collective. */
@@ -55,6 +56,7 @@ namespace abut::shim
     la::Vector residual_, start_;
     Message finding_;
     double lost_ = 0.;
+    bool has_prescribed_ = false; ///< seen: R has their forces
   };
 } // namespace abut::shim
 

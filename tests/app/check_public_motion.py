@@ -115,9 +115,10 @@ for scene in ("dynamics-bar-on-a-wall.prm", "dynamics-falling-bar.prm"):
     for setting in ("Length=1e300", "Density=1e300"):
         name, value = setting.split("=")
         run(scene, {"Bar/" + name: value}, 3, "ABUT-F39", "range of")
-run(STRUCK, {"Body 1/Density": "1e-20"}, 3, "ABUT-F12", "below round-off of the stiffness",
-    "Density", "Time stepping/Step size", "!Support the body in that direction")
-run(STRUCK, {"Body 1/Density": "1e-30"}, 3, "ABUT-F30", "badly conditioned")
+for density in ("1e-20", "1e-30"):
+    run(STRUCK, {"Body 1/Density": density}, 3, "ABUT-F12",
+        "below round-off of the stiffness", "Density", "Time stepping/Step size",
+        "!Support the body in that direction")
 for mass in ("1e-300", "1e300"):
     run("dynamics-bouncing-ball.prm", {"Masses/Mass": mass}, 3, "ABUT-F39",
         "units")

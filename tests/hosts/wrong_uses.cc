@@ -342,14 +342,6 @@ namespace
     doubled.solve(Program::under(0.999));
     expect_words(findings(doubled, ABUT_FAILURE_UNBALANCED, false),
                  {"changes by 2 times K du"});
-
-    // Forces where there is neither load nor contact.
-    Program apart({});
-    apart.solve(Program::under(1.01));
-    apart.u(apart.dof_handler.n_dofs() - 1) = 0.1;
-    apart.find_residual();
-    expect(apart.contact.checks().imbalance(apart.residual) == 1.,
-           "forces that nothing balances");
   }
 
   /** K is without the columns of prescribed unknowns, and R has no forces of
@@ -392,7 +384,6 @@ namespace
           Use use;
           use.two_bodies = true;
           use.n_refinements = refinements;
-          double largest[2] = {0., 0.};
           for (const bool exchanged : {false, true})
           {
             Program program(use);
@@ -418,12 +409,7 @@ namespace
                        + " refinements: the integral of pressures differs from "
                          "the force by "
                        + std::to_string(off));
-            largest[exchanged] = result.pressure;
           }
-          // Pressures at the rim grow with refinement, whichever side has them.
-          expect(largest[0] < 1.5 * largest[1] && largest[1] < 3. * largest[0],
-                 "largest pressures " + std::to_string(largest[0]) + " and "
-                     + std::to_string(largest[1]));
         }
   }
 

@@ -163,10 +163,7 @@ namespace abut
      * contact, length >= 0, by the last examine(); @ref between_rows has all
      * facets. */
     double missed_depth = 0.;
-    /** Largest pressure: of nodes, their force by their area, covered or not,
-     * as in ContactResults::pressure(); of quadrature points their own. The
-     * same for tensions and tractions. */
-    double pressure = 0.;
+    double pressure = 0.; /**< largest */
     /** Largest tension >= 0, force per area, where the law lets surfaces pull;
      * 0 for ties, whose tractions have any sign. */
     double largest_tension = 0.;
