@@ -659,9 +659,9 @@ namespace abut::solve
     text << "Bodies without supports: " << describe(free[0])
          << ", and the loads push it there. This motion opens " << opening
          << (opening == 1. ? " gap" : " gaps")
-         << ", closes none and meets no support. A sign is likely to be wrong: "
-            "of a load, or of a radius, formula or normal of the other "
-            "surface. Otherwise support the body in that direction.";
+         << ", closes none and meets no support. Check the signs of the "
+            "loads and of the radius, formula or normal of the other "
+            "surface, or support the body in that direction.";
     throw_failure(free[0], coded(ABUT_FAILURE_FLOATING_BODY, text.str()));
   }
 

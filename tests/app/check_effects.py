@@ -36,6 +36,10 @@ refused("signorini.prm", {"Membrane/Prescribed displacement": "0, 1, 2, 3: 0",
 refused("two-blocks-3d.prm", ("Refinement/Relaxation sweeps", "5"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Search/Extension", "0.5"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Search/Self contact", "true"), NO_EFFECT)
+refused("two-blocks-3d.prm", {"Search/Algorithm": "all pairs",
+                              "Search/Bucket size": "3"}, NO_EFFECT, "buckets")
+refused("two-blocks-3d.prm", {"Search/Algorithm": "uniform buckets",
+                              "Search/Bucket capacity": "3"}, NO_EFFECT)
 refused("two-blocks-3d.prm", ("Method/Multiplier degree", "1"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Solid/Plane", "stress"), NO_EFFECT)
 refused("two-blocks-3d.prm", ("Solid/Obstacles", "1"), NO_EFFECT, "obstacle 1")

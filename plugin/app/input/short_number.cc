@@ -11,4 +11,9 @@ namespace abut::app
     std::snprintf(text, sizeof(text), "%.*g", digits, value + 0.); // 0: no sign
     return text;
   }
+
+  std::string percent(const double part, const int digits)
+  {
+    return short_number(100. * part, digits) + " %";
+  }
 } // namespace abut::app

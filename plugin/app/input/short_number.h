@@ -8,6 +8,9 @@ namespace abut::app
 {
   /** A number for tables and lines of progress, with @p digits digits. */
   std::string short_number(double value, int digits = 10);
+
+  /** A part of 1 in per cent. */
+  std::string percent(double part, int digits = 3);
 } // namespace abut::app
 
 #endif

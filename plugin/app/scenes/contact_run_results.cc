@@ -3,14 +3,13 @@
 #include "contact_run.h"
 
 #include "app/input/input_error.h"
+#include "app/input/short_number.h"
 #include "diagnosis.h"
 #include "name_parameter.h"
 #include "shim/examination_limits.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <vector>
 
 namespace abut::app
@@ -26,20 +25,19 @@ namespace abut::app
       if (turned <= shim::visible_rotation)
         return;
       const double stretch = 1. - std::cos(turned);
-      std::ostringstream text;
-      text
-          << motion.text
-          << ". Strains are linear in the displacement, which stretches a body "
-             "that rotates so far by "
-          << std::setprecision(3) << 100. * stretch
-          << " %, and contact has moved away from where it was. Apply loads "
-             "without a moment about the contact, support the rotation, or use "
-             "a material of finite strain.";
-      ContactFinding finding(coded(ABUT_FAILURE_LARGE_STRAIN, text.str(),
-                                   {{"rotation", turned},
-                                    {"warning limit", shim::visible_rotation},
-                                    {"stretch", stretch}}),
-                             false);
+      ContactFinding finding(
+          coded(ABUT_FAILURE_LARGE_STRAIN,
+                motion.text
+                    + ". Strains are linear in the displacement, which "
+                      "stretches a body that rotates so far by "
+                    + percent(stretch)
+                    + ", and contact has moved away from where it was. Apply "
+                      "loads without a moment about the contact, support the "
+                      "rotation, or use a material of finite strain.",
+                {{"rotation", turned},
+                 {"warning limit", shim::visible_rotation},
+                 {"stretch", stretch}}),
+          false);
       finding.body = static_cast<int>(motion.body);
       findings.push_back(finding);
     }

@@ -18,11 +18,6 @@ namespace abut::app
     // Less than this part of the time is not worth a word.
     constexpr double small_share = 0.1;
 
-    std::string percent(const double part)
-    {
-      return short_number(100. * part, 2) + " %";
-    }
-
     void explain_law(Report &report, const double target,
                      const double law_error, const MethodParameters &method)
     {
@@ -94,11 +89,11 @@ namespace abut::app
     const double output = report.times.seconds("output") / wall;
     const double results = report.times.seconds("results") / wall;
     if (output > small_share)
-      report.leave_out("files: " + percent(output)
+      report.leave_out("files: " + percent(output, 2)
                        + " of the time; Output/Fields = false and "
                          "Output/Pictures = false.");
     if (results > small_share)
-      report.leave_out("error norms: " + percent(results)
+      report.leave_out("error norms: " + percent(results, 2)
                        + " of the time goes into results; leave out the "
                          "section Exact solution.");
   }

@@ -269,13 +269,17 @@ namespace abut::app
     return rules;
   }
 
-  EffectRule capacity_effect()
+  EffectRules bucket_effects()
   {
-    return setting(
-        "Search/Bucket capacity",
-        [](const SceneValues &values)
-        { return values("Search/Algorithm") == "adaptive buckets"; },
-        "it belongs to Search/Algorithm = adaptive buckets.");
+    const auto is_adaptive_search = [](const SceneValues &values)
+    { return values("Search/Algorithm") == "adaptive buckets"; };
+    const auto has_buckets = [](const SceneValues &values)
+    { return values("Search/Algorithm") != "all pairs"; };
+    return {setting("Search/Bucket capacity", is_adaptive_search,
+                    "it belongs to Search/Algorithm = adaptive buckets."),
+            setting("Search/Bucket size", has_buckets,
+                    "it belongs to Search/Algorithm = uniform buckets or "
+                    "adaptive buckets.")};
   }
 
   EffectRules joined(const std::vector<EffectRules> &lists)

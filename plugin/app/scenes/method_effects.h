@@ -42,8 +42,8 @@ namespace abut::app
    * superfluous, and conditions on the place. */
   EffectRules mesh_effects(const std::string &section);
 
-  /** Search/Bucket capacity. */
-  EffectRule capacity_effect();
+  /** Sizes of buckets. */
+  EffectRules bucket_effects();
 
   /** All rules of @p lists, one after the other. */
   EffectRules joined(const std::vector<EffectRules> &lists);

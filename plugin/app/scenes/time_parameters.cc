@@ -82,8 +82,6 @@ namespace abut::app
                        const abut_time_balance &balance, const double begin,
                        const double end, const Touching what)
   {
-    const auto percent = [](const double part)
-    { return short_number(100. * part, 3) + " %"; };
     return coded(
         ABUT_FAILURE_ENERGY_LOSS,
         "the scheme has lost " + percent(balance.loss)

@@ -24,8 +24,8 @@ namespace abut::app
                          "touches itself."),
             effective_if("Sweep/Repeats", Weight::setting, has_sweep, no_sweep),
             effective_if("Sweep/Maximum tests", Weight::setting, has_sweep,
-                         no_sweep),
-            capacity_effect()},
+                         no_sweep)},
+           bucket_effects(),
            mesh_effects("Secondary"),
            mesh_effects("Primary")});
     }

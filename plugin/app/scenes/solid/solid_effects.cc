@@ -261,7 +261,6 @@ namespace abut::app
       rules.push_back(
           setting("Method/Geometric contact tangent", points_may_move,
                   "it belongs to Method/Contact geometry = current."));
-      rules.push_back(capacity_effect());
       const std::string no_contact = "there is no contact: Solid/Pairs is 0.";
       rules.push_back(
           {"Method/*", Weight::setting,
@@ -319,10 +318,11 @@ namespace abut::app
 
   EffectRules solid_effects()
   {
-    return joined(
-        {of_loads(), of_materials(), of_contact(), of_obstacles(), of_search(),
-         mesh_effects("Body */Mesh"), mesh_effects("Obstacle *"), law_effects(),
-         solver_effects(), refinement_effects(), of_load_steps(), of_motion(),
-         motion_effects({"Body */Initial*"}, "hht"), result_effects()});
+    return joined({of_loads(), of_materials(), of_contact(), of_obstacles(),
+                   of_search(), bucket_effects(), mesh_effects("Body */Mesh"),
+                   mesh_effects("Obstacle *"), law_effects(), solver_effects(),
+                   refinement_effects(), of_load_steps(), of_motion(),
+                   motion_effects({"Body */Initial*"}, "hht"),
+                   result_effects()});
   }
 } // namespace abut::app

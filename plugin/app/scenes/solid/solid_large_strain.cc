@@ -56,8 +56,6 @@ namespace abut::app
     if (seen.excess <= 0.)
       return findings;
     const MaterialKind &material = *bodies[seen.where].material;
-    const auto percent = [](const double part)
-    { return short_number(100. * part, 3) + " %"; };
     findings.emplace_back(
         coded(ABUT_FAILURE_LARGE_STRAIN,
               "Body " + std::to_string(seen.where + 1) + " is compressed to "
