@@ -17,6 +17,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace abut::app
 {
@@ -77,12 +78,8 @@ namespace abut::app
             const Point &point, const Gradient &gradient_change,
             const Displacement &displacement_change) const override
     {
-      const Matrix f = deformation(gradient, displacement, point);
-      const Matrix df = with_third(
-          gradient_change,
-          this->hoop_strain(gradient_change, displacement_change, point), 0.);
-      return nominal(determinant(f) > 0. ? piola_change(f, df)
-                                         : nan * Matrix());
+      return change(linearised(deformation(gradient, displacement, point)),
+                    gradient_change, displacement_change, point);
     }
 
     double stiffness() const override
@@ -108,10 +105,32 @@ namespace abut::app
     }
 
   protected:
+    /** F, and what else a material has the change of P from; no F: J <= 0. */
+    struct Linearised
+    {
+      std::optional<Matrix> f;
+      Matrix derived;
+      double volume = 0., shape = 0.; ///< factors
+    };
+
     /** psi, P and the change of P with F, for J > 0. */
     virtual double energy_of(const Matrix &f) const = 0;
     virtual Matrix piola_of(const Matrix &f) const = 0;
-    virtual Matrix piola_change(const Matrix &f, const Matrix &df) const = 0;
+    virtual Linearised linearised_at(const Matrix &f) const = 0;
+    virtual Matrix piola_change(const Linearised &at,
+                                const Matrix &df) const = 0;
+
+    typename Material<dim>::Moduli moduli(const Gradient &gradient,
+                                          const Displacement &displacement,
+                                          const Point &point) const override
+    {
+      const Linearised at =
+          linearised(deformation(gradient, displacement, point));
+      return this->moduli_by(
+          [&](const Gradient &gradient_change,
+              const Displacement &displacement_change)
+          { return change(at, gradient_change, displacement_change, point); });
+    }
 
     /** F. */
     Matrix deformation(const Gradient &gradient,
@@ -138,6 +157,22 @@ namespace abut::app
     const double young_modulus, nu, mu, lambda;
 
   private:
+    Linearised linearised(const Matrix &f) const
+    {
+      return determinant(f) > 0. ? linearised_at(f) : Linearised();
+    }
+
+    NominalStress<dim> change(const Linearised &at,
+                              const Gradient &gradient_change,
+                              const Displacement &displacement_change,
+                              const Point &point) const
+    {
+      const Matrix df = with_third(
+          gradient_change,
+          this->hoop_strain(gradient_change, displacement_change, point), 0.);
+      return nominal(at.f ? piola_change(at, df) : nan * Matrix());
+    }
+
     /** A tensor of the model with what is along the third direction; @p first
      * is added to the diagonal. */
     static Matrix with_third(const Gradient &gradient, const double third,

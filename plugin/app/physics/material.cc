@@ -107,23 +107,13 @@ namespace abut::app
                         const dealii::Tensor<1, dim> &displacement,
                         const dealii::Point<dim> &point) const
   {
-    Moduli result;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-      {
-        dealii::Tensor<2, dim> one;
-        one[i][j] = 1.;
-        result.of_gradient[i][j] =
-            tangent(gradient, displacement, point, one, {});
-      }
-    result.has_radius = is_axisymmetric();
-    if (result.has_radius)
-    {
-      dealii::Tensor<1, dim> one;
-      one[0] = 1.;
-      result.of_radius = tangent(gradient, displacement, point, {}, one);
-    }
-    return result;
+    return moduli_by(
+        [&](const dealii::Tensor<2, dim> &gradient_change,
+            const dealii::Tensor<1, dim> &displacement_change)
+        {
+          return tangent(gradient, displacement, point, gradient_change,
+                         displacement_change);
+        });
   }
 
   template <int dim>

@@ -207,7 +207,6 @@ namespace abut::app
                               const CellState<dim> &state,
                               dealii::FullMatrix<double> &result) const;
 
-  private:
     /** Changes of the nominal stress at a point by each entry of the gradient,
      * and by the radial displacement of axisymmetric bodies. */
     struct Moduli
@@ -222,10 +221,34 @@ namespace abut::app
       bool has_radius = false;
     };
 
-    Moduli moduli(const dealii::Tensor<2, dim> &gradient,
-                  const dealii::Tensor<1, dim> &displacement,
-                  const dealii::Point<dim> &point) const;
+    /** From tangent(), where a material knows no faster way. */
+    virtual Moduli moduli(const dealii::Tensor<2, dim> &gradient,
+                          const dealii::Tensor<1, dim> &displacement,
+                          const dealii::Point<dim> &point) const;
 
+    /** From the @p change of the nominal stress by a gradient and a
+     * displacement. */
+    template <typename Change> Moduli moduli_by(const Change &change) const
+    {
+      Moduli result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+        {
+          dealii::Tensor<2, dim> one;
+          one[i][j] = 1.;
+          result.of_gradient[i][j] = change(one, dealii::Tensor<1, dim>());
+        }
+      result.has_radius = is_axisymmetric();
+      if (result.has_radius)
+      {
+        dealii::Tensor<1, dim> one;
+        one[0] = 1.;
+        result.of_radius = change(dealii::Tensor<2, dim>(), one);
+      }
+      return result;
+    }
+
+  private:
     /** Add what a stress at point @p q of a volume does to all nodes. */
     void add_nodal_forces(const dealii::FEValues<dim> &values,
                           const NodalPlaces<dim> &places,

@@ -17,6 +17,7 @@ namespace abut::app
       using typename FiniteStrain<dim>::Displacement;
       using typename FiniteStrain<dim>::Point;
       using typename FiniteStrain<dim>::Matrix;
+      using typename FiniteStrain<dim>::Linearised;
       using FiniteStrain<dim>::lambda;
       using FiniteStrain<dim>::mu;
 
@@ -79,16 +80,21 @@ namespace abut::app
         return mu * f + (factor - mu) * transpose(invert(f));
       }
 
-      Matrix piola_change(const Matrix &f, const Matrix &df) const override
+      Linearised linearised_at(const Matrix &f) const override
       {
-        const Matrix inverse = invert(f), relative = inverse * df;
         const double j = determinant(f);
         const double constant = held ? pressure(*held) * j : 0.;
-        const double factor = mu - (held ? constant : lambda * std::log(j));
+        return {f, invert(f), held ? constant : lambda,
+                mu - (held ? constant : lambda * std::log(j))};
+      }
+
+      Matrix piola_change(const Linearised &at, const Matrix &df) const override
+      {
+        const Matrix &inverse = at.derived;
+        const Matrix relative = inverse * df;
         return mu * df
-               + transpose((held ? constant : lambda) * trace(relative)
-                               * inverse
-                           + factor * relative * inverse);
+               + transpose(at.volume * trace(relative) * inverse
+                           + at.shape * relative * inverse);
       }
 
       /** lambda ln(J) / J, which J is multiplied by in the stress. */

@@ -12,6 +12,7 @@ namespace abut::app
     template <int dim> class StVenantKirchhoff : public FiniteStrain<dim>
     {
       using typename FiniteStrain<dim>::Matrix;
+      using typename FiniteStrain<dim>::Linearised;
       using FiniteStrain<dim>::lambda;
       using FiniteStrain<dim>::mu;
 
@@ -37,10 +38,15 @@ namespace abut::app
         return f * hooke(green(f));
       }
 
-      Matrix piola_change(const Matrix &f, const Matrix &df) const override
+      Linearised linearised_at(const Matrix &f) const override
       {
-        const Matrix half = 0.5 * transpose(f) * df;
-        return df * hooke(green(f)) + f * hooke(half + transpose(half));
+        return {f, hooke(green(f))};
+      }
+
+      Matrix piola_change(const Linearised &at, const Matrix &df) const override
+      {
+        const Matrix half = 0.5 * transpose(*at.f) * df;
+        return df * at.derived + *at.f * hooke(half + transpose(half));
       }
 
       static Matrix unit()
