@@ -7,13 +7,13 @@
 #include "examination_limits.h"
 #include "obstacle_in_bodies.h"
 #include "obstacle_width.h"
+#include "short_text.h"
 
 #include <abut/dealii/coded.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace abut::shim
 {
@@ -21,27 +21,6 @@ namespace abut::shim
 
   namespace
   {
-    std::string number(const double value)
-    {
-      std::ostringstream out;
-      out.precision(3);
-      out << value;
-      return out.str();
-    }
-
-    template <int dim> std::string numbers(const dealii::Tensor<1, dim> &vector)
-    {
-      std::string text = "(" + number(vector[0]);
-      for (unsigned int d = 1; d < dim; ++d)
-        text += ", " + number(vector[d]);
-      return text + ")";
-    }
-
-    std::string percent(const double part)
-    {
-      return number(100. * part) + " %";
-    }
-
     /** Collects what is found. */
     class Findings
     {

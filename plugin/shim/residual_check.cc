@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "residual_check.h"
 
+#include "short_text.h"
+
 #include <abut/dealii/contact_pair.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace abut::shim
 {
@@ -15,14 +16,6 @@ namespace abut::shim
 
   namespace
   {
-    std::string number(const double value)
-    {
-      std::ostringstream out;
-      out.precision(3);
-      out << value;
-      return out.str();
-    }
-
     /** Next to displacements that are prescribed in one component: their mean
      * in the cells around each free unknown, and the number of these cells;
      * unknowns in cells with hanging nodes are marked. */
