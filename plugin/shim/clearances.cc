@@ -13,7 +13,7 @@ namespace abut::shim
   template <int dim>
   std::vector<double> clearances(const PairPoints<dim> &points,
                                  const std::vector<Direction<dim>> &u,
-                                 const bool only_moving)
+                                 const std::vector<int> &wanted)
   {
     std::vector<double> result(points.view().n_components, INFINITY);
     std::vector<dealii::Point<dim>> present;
@@ -24,10 +24,11 @@ namespace abut::shim
         host.communicator,
         [&]
         {
-          for (SurfacePair<dim> &pair : points.pairs())
-            if (!pair.data.obstacle && !pair.data.tied && pair.has_mean_gaps()
-                && pair.data.geometric_gap
-                && (!only_moving || pair.has_current_points()))
+          for (std::size_t p = 0; p < points.pairs().size(); ++p)
+          {
+            SurfacePair<dim> &pair = points.pairs()[p];
+            if (wanted[p] != 0 && !pair.data.obstacle && !pair.data.tied
+                && pair.has_mean_gaps() && pair.data.geometric_gap)
               run_named(pair.data.name,
                         [&]
                         {
@@ -41,13 +42,15 @@ namespace abut::shim
                                     static_cast<std::int32_t>(present.size()),
                                     result.data()));
                         });
+          }
         });
     return result;
   }
 
 #define ABUT_INSTANTIATE(dim)                                                  \
-  template std::vector<double> clearances(                                     \
-      const PairPoints<dim> &, const std::vector<Direction<dim>> &, bool);
+  template std::vector<double> clearances(const PairPoints<dim> &,             \
+                                          const std::vector<Direction<dim>> &, \
+                                          const std::vector<int> &);
 
   ABUT_INSTANTIATE(2)
   ABUT_INSTANTIATE(3)

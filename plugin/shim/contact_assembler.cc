@@ -354,7 +354,9 @@ namespace abut
   {
     auto &i = *implementation;
     i.check_rows("solve()");
-    const solve::Stiffness matrix = i.host.stiffness("solve()", tangent);
+    const solve::Stiffness matrix = i.host.constant_stiffness(
+        "solve()", tangent,
+        !i.input.constant_matrix || i.system.has_new_matrix);
     const la::Vector &residual =
         i.host.vector("solve()", "residual", given_residual);
     la::Vector &increment =

@@ -50,6 +50,7 @@ namespace abut::shim
     reference_.reset();
     copied_.clear();
     copied_reference_.clear();
+    constant_.reset();
   }
 
   template <int dim>
@@ -211,6 +212,20 @@ namespace abut::shim
     if (!is_block)
       check_coupled(taken, name);
     return taken;
+  }
+
+  template <int dim>
+  solve::Stiffness ContactHost<dim>::constant_stiffness(const std::string &call,
+                                                        const Tangent &tangent,
+                                                        const bool is_new)
+  {
+    const bool is_other = is_new || !constant_ || !tangent.has_matrix()
+                          || tangent.other() != nullptr
+                          || !constant_->has_matrix()
+                          || &tangent.matrix() != &constant_->matrix();
+    if (dealii::Utilities::MPI::logical_or(is_other, communicator_))
+      constant_ = stiffness(call, tangent);
+    return *constant_;
   }
 
   template class ContactHost<2>;

@@ -88,6 +88,12 @@ namespace abut::shim
       return stiffness(call, tangent, copied_);
     }
 
+    /** The same of a @p tangent that is constant since the last call, unless
+     * @p is_new: a matrix of Abut's type is then neither checked nor looked at
+     * again. Collective. */
+    solve::Stiffness constant_stiffness(const std::string &call,
+                                        const Tangent &tangent, bool is_new);
+
     /** Let penalties be multiples of this one. Collective. */
     void set_reference(const std::string &call, const Tangent &tangent)
     {
@@ -129,6 +135,7 @@ namespace abut::shim
     /** Copies of matrices of other types: the present one, and reference. */
     mutable HostMatrixCopy copied_;
     HostMatrixCopy copied_reference_;
+    std::optional<solve::Stiffness> constant_; ///< none: not known
   };
 } // namespace abut::shim
 

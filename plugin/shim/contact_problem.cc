@@ -503,8 +503,7 @@ namespace abut::shim
       {
         if (error.message().failure != ABUT_FAILURE_NO_PARTNER
             || surfaces == nullptr
-            || solve::UnsupportedBodies::are_supported(near_null_space(),
-                                                       communicator)
+            || solve::are_supported(near_null_space(), communicator)
             || !widen_search())
           throw;
       }
@@ -711,7 +710,9 @@ namespace abut::shim
     system.has_new_matrix = false;
     scales.find_compliance(of_host);
     const solve::Stiffness matrix =
-        system.has_matrix ? moving.with_geometry(of_host.matrix()) : of_host;
+        system.has_matrix && moving.has_geometry()
+            ? solve::Stiffness(moving.with_geometry(of_host.matrix()))
+            : of_host;
     if (system.solver == nullptr)
     {
       if (input.is_nitsche())

@@ -53,9 +53,12 @@ namespace abut::shim
       return false;
     const ContactProblem<dim> &i = problem_;
     const double least = least_clearance(displacement);
+    std::vector<int> moving;
+    for (const SurfacePair<dim> &pair : i.surfaces->set().pairs())
+      moving.push_back(pair.has_current_points());
     const std::vector<double> clearance = clearances(
         i.surfaces->points(),
-        i.surfaces->points().displacements_in_reach(displacement), true);
+        i.surfaces->points().displacements_in_reach(displacement), moving);
     const std::vector<int> pair_of = i.surfaces->points().row_pairs();
     std::vector<int> touches(i.input.pairs.size(), 0);
     const int n = i.rows.coefficients.n_rows();

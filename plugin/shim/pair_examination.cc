@@ -189,14 +189,33 @@ namespace abut::shim
                               const std::uint8_t *row_state) const
   {
     std::vector<SeparatedRows> result(pairs_.size());
-    const std::vector<double> clearance = clearances(points_, examined_, false);
+    const auto force_of = [&](const PointRow<dim> &row)
+    {
+      return row_state == nullptr || row_state[row.row] == ABUT_STATE_OPEN
+                 ? 0.
+                 : points_.view().weight[row.point] * row_pressure[row.row];
+    };
+    // Where points of integration are near, there is nothing to search for.
+    std::vector<int> wanted(pairs_.size(), 0);
     points_.for_each_component(
         [&](const PointRow<dim> &row)
         {
-          const double force =
-              row_state == nullptr || row_state[row.row] == ABUT_STATE_OPEN
-                  ? 0.
-                  : points_.view().weight[row.point] * row_pressure[row.row];
+          const SurfacePair<dim> &pair = pairs_[row.place.pair];
+          const double least = points_.places().least[row.point];
+          const bool is_near =
+              least > -pair.facet_size()
+              && least + pair.data.gap - std::max(0., row_gap[row.row])
+                     <= visible[row.place.pair];
+          if (!is_near && force_of(row) > 0.)
+            wanted[row.place.pair] = 1;
+        });
+    MPI::max(wanted, host_.communicator, wanted);
+    const std::vector<double> clearance =
+        clearances(points_, examined_, wanted);
+    points_.for_each_component(
+        [&](const PointRow<dim> &row)
+        {
+          const double force = force_of(row);
           if (!(force > 0.))
             return;
           SeparatedRows &found = result[row.place.pair];

@@ -63,12 +63,12 @@ namespace abut::shim
 
   /** [rows] Distance of the surfaces around the rows of weighted gaps: the
    * least gap, length, at nodes of both sides and at points of integration, of
-   * the law; infinite for other rows, and for pairs that do not move if @p
-   * only_moving. Collective. */
+   * the law; infinite for other rows, and for pairs that are not @p
+   * wanted. Collective. */
   template <int dim>
   std::vector<double> clearances(const PairPoints<dim> &points,
                                  const std::vector<Direction<dim>> &u,
-                                 bool only_moving);
+                                 const std::vector<int> &wanted);
 
   /** Facets in obstacles, see RowSource. Collective. */
   template <int dim>

@@ -183,7 +183,7 @@ namespace abut::shim
     constraints.set_zero(free);
     matrix.vmult(product, free);
     forces -= product; // those of prescribed displacements, and loads
-    const std::vector<double> diagonal = matrix.diagonal();
+    const std::vector<double> &diagonal = matrix.diagonal();
     std::vector<double> expected(diagonal.size(), 0.);
     bool is_elastic = true;
     for (unsigned int axis = 0; axis < dim; ++axis)

@@ -13,7 +13,7 @@ namespace abut::solve
   {
     rows_ = &rows;
     diagonal_ = stiffness.diagonal();
-    is_symmetric_ = is_symmetric(stiffness);
+    is_symmetric_ = stiffness.is_symmetric();
     matrix_.reinit(stiffness, rows);
   }
 

@@ -106,8 +106,10 @@ namespace abut::solve
     if (assembled_ != nullptr && space_.reuses_factors
         && space_.kept->step == step_)
       space_.kept->condensed = std::move(assembled_);
-    if (geometric_ != nullptr)
-      space_.kept->geometric = std::move(geometric_);
+    if (geometric_ == nullptr)
+      return;
+    space_.kept->geometric = std::move(geometric_);
+    space_.kept->geometric_of = geometric_of_;
   }
 
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
@@ -122,7 +124,7 @@ namespace abut::solve
                                const PointOperator &rows,
                                const std::vector<double> &row_stiffness)
   {
-    set_stiffness(stiffness.matrix(), rows, row_stiffness);
+    set_stiffness(stiffness, rows, row_stiffness);
     keeper_.forget();
     filter_.reset();
     multigrid_.reset();
@@ -141,18 +143,18 @@ namespace abut::solve
         || built_.pivot.size() != static_cast<std::size_t>(rows.n_rows()))
       reinit(stiffness, rows, row_stiffness);
     else
-      set_stiffness(stiffness.matrix(), rows, row_stiffness);
+      set_stiffness(stiffness, rows, row_stiffness);
   }
 
-  void CondensedSolver::set_stiffness(const la::Matrix &stiffness,
+  void CondensedSolver::set_stiffness(const Stiffness &stiffness,
                                       const PointOperator &rows,
                                       const std::vector<double> &row_stiffness)
   {
     CondensateSolver::set_stiffness(stiffness, rows);
-    stiffness_ = &stiffness;
-    has_new_matrix_ = true;
+    stiffness_ = &stiffness.matrix();
+    values_ = stiffness.values();
     row_stiffness_ = row_stiffness;
-    choice_.choose(stiffness, space_, is_symmetric_);
+    choice_.choose(*stiffness_, space_, is_symmetric_);
   }
 
   bool CondensedSolver::is_direct() const
@@ -275,7 +277,10 @@ namespace abut::solve
     if (MPI::n_mpi_processes(communicator) > 1)
       touched = terms.unknowns();
     if (geometric_ == nullptr)
+    {
       geometric_ = std::move(space_.kept->geometric);
+      geometric_of_ = space_.kept->geometric_of;
+    }
     if (MPI::logical_or(geometric_ == nullptr
                             || !geometric_->knows(*stiffness_, touched),
                         communicator))
@@ -288,9 +293,9 @@ namespace abut::solve
       geometric_ = std::make_unique<GeometricMultigrid>(
           *stiffness_, *space_.meshes, touched);
     }
-    else if (has_new_matrix_)
+    else if (geometric_of_ != values_)
       geometric_->renew_matrix(*stiffness_);
-    has_new_matrix_ = false;
+    geometric_of_ = values_;
     geometric_->set_terms(terms);
     geometric_->set_constrained(held_by_pivots(), {});
   }

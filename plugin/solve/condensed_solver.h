@@ -64,7 +64,7 @@ namespace abut::solve
     }
 
   private:
-    void set_stiffness(const la::Matrix &stiffness, const PointOperator &rows,
+    void set_stiffness(const Stiffness &stiffness, const PointOperator &rows,
                        const std::vector<double> &row_stiffness);
     bool is_outdated() const;
     void find_friction();
@@ -132,7 +132,8 @@ namespace abut::solve
     /** In place of it: K, and apart from it what contact adds to K, so that a
      * new set costs what is near it. */
     std::unique_ptr<GeometricMultigrid> geometric_;
-    bool has_new_matrix_ = true; ///< than the one in it
+    /** Of the stiffness, and of the one in it. */
+    std::shared_ptr<const void> values_, geometric_of_;
     std::unique_ptr<ContactFilter> filter_;
   };
 } // namespace abut::solve

@@ -108,7 +108,7 @@ namespace abut::solve
       motions.push_back(stiffness.make_vector());
       unsupported_.add(combination, motions.back());
     }
-    const std::vector<double> diagonal = stiffness.diagonal();
+    const std::vector<double> &diagonal = stiffness.diagonal();
     const auto pinned = choose_pivots_of_span(
         diagonal.size(), static_cast<unsigned int>(n),
         [&](const std::size_t i)

@@ -3,6 +3,7 @@
 #define ABUT_SOLVE_KEPT_PARTS_H
 
 #include "direct_solver.h"
+#include "free_bodies.h"
 #include "geometric_multigrid.h"
 
 namespace abut::solve
@@ -15,6 +16,9 @@ namespace abut::solve
     std::unique_ptr<FactorisedMatrix> condensed;
     unsigned int step = 0; ///< factors of earlier ones are forgotten
     std::unique_ptr<GeometricMultigrid> geometric;
+    std::shared_ptr<const void> geometric_of; ///< values of its matrix
+    FreeBodies bodies;
+    std::shared_ptr<const void> bodies_of; ///< values of the stiffness
   };
 } // namespace abut::solve
 

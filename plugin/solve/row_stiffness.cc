@@ -7,7 +7,7 @@ namespace abut::solve
 {
   la::Vector compliance(const Stiffness &stiffness)
   {
-    const std::vector<double> diagonal = stiffness.diagonal();
+    const std::vector<double> &diagonal = stiffness.diagonal();
     la::Vector result = stiffness.make_vector();
     std::transform(diagonal.begin(), diagonal.end(), la::data(result),
                    [](const double k) { return 1. / k; });

@@ -47,13 +47,18 @@ namespace abut::solve
     return la::Vector(owned_, communicator_);
   }
 
-  std::vector<double> Stiffness::diagonal() const
+  const std::vector<double> &Stiffness::diagonal() const
   {
-    if (has_matrix())
-      return la::diagonal(la::local_rows(matrix()));
-    la::Vector result = make_vector();
-    host().diagonal(result);
-    return {la::data(result), la::data(result) + la::n_owned(result)};
+    if (!found_->diagonal && has_matrix())
+      found_->diagonal = la::diagonal(la::local_rows(matrix()));
+    else if (!found_->diagonal)
+    {
+      la::Vector result = make_vector();
+      host().diagonal(result);
+      found_->diagonal.emplace(la::data(result),
+                               la::data(result) + la::n_owned(result));
+    }
+    return *found_->diagonal;
   }
 
   la::Vector noise(const Stiffness &stiffness, const unsigned int series)
@@ -70,17 +75,21 @@ namespace abut::solve
     return result;
   }
 
-  bool is_symmetric(const Stiffness &stiffness)
+  bool Stiffness::is_symmetric() const
   {
-    const la::Vector x = noise(stiffness, 0), y = noise(stiffness, 1);
+    if (found_->is_symmetric)
+      return *found_->is_symmetric;
+    const la::Vector x = noise(*this, 0), y = noise(*this, 1);
     la::Vector kx(x), ky(y);
-    if (stiffness.has_matrix())
-      multiply_both(stiffness.matrix(), x, y, kx, ky);
+    if (has_matrix())
+      multiply_both(matrix(), x, y, kx, ky);
     else
     {
-      stiffness.vmult(kx, x);
-      stiffness.vmult(ky, y);
+      vmult(kx, x);
+      vmult(ky, y);
     }
-    return std::abs(x * ky - y * kx) <= 1e-9 * x.l2_norm() * ky.l2_norm();
+    found_->is_symmetric =
+        std::abs(x * ky - y * kx) <= 1e-9 * x.l2_norm() * ky.l2_norm();
+    return *found_->is_symmetric;
   }
 } // namespace abut::solve

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/index_set.h>
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace abut::solve
@@ -33,10 +35,30 @@ namespace abut::solve
     /** A vector of zeros. Collective. */
     la::Vector make_vector() const;
 
-    /** [owned] diagonal of K. Collective. */
-    std::vector<double> diagonal() const;
+    /** [owned] diagonal of K. Collective the first time. */
+    const std::vector<double> &diagonal() const;
+
+    /** Whether x.K y = y.K x for two vectors without structure. One pass over
+     * the rows of a matrix, two products of a host, the first time.
+     * Collective. */
+    bool is_symmetric() const;
+
+    /** The same for copies: of the same values, for data that are found
+     * once. */
+    std::shared_ptr<const void> values() const
+    {
+      return found_;
+    }
 
   private:
+    /** What was asked for, common to copies. */
+    struct Found
+    {
+      std::optional<std::vector<double>> diagonal;
+      std::optional<bool> is_symmetric;
+    };
+
+    std::shared_ptr<Found> found_ = std::make_shared<Found>();
     dealii::IndexSet owned_;
     MPI_Comm communicator_ = MPI_COMM_NULL;
   };
@@ -44,10 +66,6 @@ namespace abut::solve
   /** A vector of numbers in [-1, 1) without structure, the same ones for any
    * ranks; @p series 0 and 1 have others. Collective. */
   la::Vector noise(const Stiffness &stiffness, unsigned int series);
-
-  /** Whether x.K y = y.K x for two vectors without structure. One pass over the
-   * rows of a matrix, two products of a host. Collective. */
-  bool is_symmetric(const Stiffness &stiffness);
 } // namespace abut::solve
 
 #endif

@@ -2,10 +2,9 @@
 #ifndef ABUT_SOLVE_UNSUPPORTED_BODIES_H
 #define ABUT_SOLVE_UNSUPPORTED_BODIES_H
 
+#include "free_bodies.h"
 #include "local_elimination.h"
-#include "near_null_space.h"
 #include "point_operator.h"
-#include "stiffness.h"
 
 #include <abut/dealii/coded.h>
 
@@ -33,28 +32,21 @@ namespace abut::solve
      * likewise. */
     static constexpr double no_work = 1e-10;
 
-    /** Find the motions that K leaves free: translations, and rotations if the
-     * positions of unknowns are known. Nothing is done for scalar fields. One
-     * pass over a matrix, a product for each motion of a host's, unless
-     * supports obviously hold all bodies. Collective. */
+    /** Find the motions that K leaves free, unless they are known for this K on
+     * this mesh, see find_free_bodies(). Collective. */
     void reinit(const Stiffness &stiffness, const PointOperator &rows,
                 const NearNullSpace &space);
-
-    /** Whether prescribed values alone stop all motions of all bodies.
-     * Collective. */
-    static bool are_supported(const NearNullSpace &space,
-                              MPI_Comm communicator);
 
     /** Whether K leaves no motion free. */
     bool empty() const
     {
-      return motions_.empty();
+      return bodies_.motions.empty();
     }
 
     /** Number of motions that K leaves free. */
     unsigned int size() const
     {
-      return static_cast<unsigned int>(motions_.size());
+      return static_cast<unsigned int>(bodies_.motions.size());
     }
 
     /** Combinations of motions that no row with @p resists nonzero resists.
@@ -161,21 +153,8 @@ namespace abut::solve
   private:
     std::string name(unsigned int body) const;
 
-    /** A motion of one body: coefficients of its translations and rotations
-     * about its centre. */
-    struct Motion
-    {
-      unsigned int body;
-      std::vector<double> coefficient;
-      la::Vector displacement;
-    };
-
     NearNullSpace space_;
-    unsigned int n_modes_ = 0;
-    std::vector<Motion> motions_;
-    /** [bodies] what rotations are about, and what they are measured by. */
-    std::vector<dealii::Point<3>> center_;
-    std::vector<double> radius_;
+    FreeBodies bodies_;
     /** [motions][rows] change of the gaps with each motion. */
     std::vector<std::vector<double>> gap_;
   };

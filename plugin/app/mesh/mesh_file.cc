@@ -188,12 +188,14 @@ namespace abut::app
       }
     }
 
-    /** Place of a corner of a quadrilateral or hexahedron in deal.II's order,
-     * the same as deal.II's readers make: the order that they take hexahedra to
-     * be in has left-handed cells, of which they then exchange two faces. */
+    /** Place of a corner of a quadrilateral or hexahedron in deal.II's order.
+     * Not GeometryInfo's, which depends on the version of deal.II: only since
+     * 9.5 are its hexahedra right-handed. */
     template <int dim> unsigned int place_of_corner(const unsigned int c)
     {
-      return dealii::GeometryInfo<dim>::ucd_to_deal[c] ^ (dim == 3 ? 2u : 0u);
+      constexpr unsigned int of_quadrilateral[] = {0, 1, 3, 2},
+                             of_hexahedron[] = {2, 3, 7, 6, 0, 1, 5, 4};
+      return dim == 2 ? of_quadrilateral[c] : of_hexahedron[c];
     }
   } // namespace
 

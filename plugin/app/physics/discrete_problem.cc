@@ -211,7 +211,7 @@ namespace abut::app
         force.reinit(dofs.size(), true);
         for (unsigned int i = 0; i < dofs.size(); ++i)
           values(i) = of(dofs[i]);
-        cell_stiffness(cell).vmult(force, values);
+        cell_stiffness(cell, force, values);
         versions::distribute_local_to_global(hanging, force, dofs, by);
       }
       return close_load(by);

@@ -135,9 +135,10 @@ namespace abut::app
 
   protected:
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
-    /** Stiffness of a cell, valid until the next call. */
+    /** Writes the product of the stiffness of a cell with values there. */
     using CellStiffness =
-        std::function<const dealii::FullMatrix<double> &(const Cell &)>;
+        std::function<void(const Cell &, dealii::Vector<double> &product,
+                           const dealii::Vector<double> &values)>;
 
     /** Number unknowns, build constraints and the matrix's pattern for the
      * present mesh. Collective. */

@@ -182,13 +182,6 @@ namespace abut::app
                        { return entry.second->is_linear(); });
   }
 
-  template <int dim>
-  const dealii::FullMatrix<double> &Elasticity<dim>::cell_stiffness(
-      const typename DiscreteProblem<dim>::Cell &cell) const
-  {
-    return cache->of(cell).matrix(cell);
-  }
-
   template <int dim> void Elasticity<dim>::assemble_stiffness()
   {
     if (!is_linear())
@@ -203,7 +196,7 @@ namespace abut::app
       if (cell->is_locally_owned())
       {
         shim::get_dofs(cell, dofs);
-        sum.add(cell_stiffness(cell), dofs);
+        sum.add(cache->of(cell).matrix(cell), dofs);
       }
     sum.close();
   }
@@ -364,7 +357,7 @@ namespace abut::app
         moved(i) = this->constraints.get_inhomogeneity(dofs[i]);
       if (moved.all_zero())
         continue;
-      cell_stiffness(cell).vmult(force, moved);
+      cache->of(cell).vmult(cell, force, moved);
       force *= -1.;
       versions::distribute_local_to_global(this->constraints, force, dofs,
                                            load);
@@ -418,9 +411,8 @@ namespace abut::app
   {
     la::Vector result = this->free_forces(u);
     result += this->support_forces(
-        u,
-        [this](const auto &cell) -> const dealii::FullMatrix<double> &
-        { return cell_stiffness(cell); });
+        u, [this](const auto &cell, auto &force, const auto &values)
+        { cache->of(cell).vmult(cell, force, values); });
     return result;
   }
 

@@ -119,10 +119,6 @@ namespace abut::app
     /** Those of the first kind, with the present prescribed values. */
     la::Vector all_internal_forces(const la::Vector &u) const;
     void assemble_tangent(const la::Vector &u);
-    /** Of a cell of a linear material, valid until the next call. */
-    const dealii::FullMatrix<double> &
-    cell_stiffness(const typename DiscreteProblem<dim>::Cell &cell) const;
-
     la::Matrix undeformed; ///< of nonlinear materials
     std::unique_ptr<Materials<dim>> materials;
     std::unique_ptr<StiffnessCaches<dim>> cache;

@@ -335,10 +335,10 @@ namespace abut::app
     CellSystem<dim> system(*this, assembled);
     return this->support_forces(
         u,
-        [&](const auto &cell) -> const dealii::FullMatrix<double> &
+        [&](const auto &cell, auto &force, const auto &values)
         {
           system.compute(cell);
-          return system.matrix;
+          system.matrix.vmult(force, values);
         });
   }
 

@@ -89,15 +89,15 @@ namespace abut::app
   }
 
   template <int dim>
-  const dealii::FullMatrix<double> &
-  StiffnessCache<dim>::matrix(const Cell &cell)
+  std::pair<const dealii::FullMatrix<double> *, double>
+  StiffnessCache<dim>::find(const Cell &cell)
   {
     ++n_asked;
     const bool helps = n_asked < trial || 2 * known.size() < n_asked;
     if (!helps || !has_shape(cell))
     {
       compute(cell, result);
-      return result;
+      return {&result, 1.};
     }
     const double size =
         cell->vertex(cell->n_vertices() - 1).distance(cell->vertex(0));
@@ -109,10 +109,28 @@ namespace abut::app
       entry = known.emplace(wanted, std::make_pair(size, result)).first;
     }
     const auto &[size_of_known, shared] = entry->second;
-    if (dim == 2)
-      return shared;
-    result.equ(size / size_of_known, shared);
+    return {&shared, dim == 2 ? 1. : size / size_of_known};
+  }
+
+  template <int dim>
+  const dealii::FullMatrix<double> &
+  StiffnessCache<dim>::matrix(const Cell &cell)
+  {
+    const auto [known_one, factor] = find(cell);
+    if (factor == 1.)
+      return *known_one;
+    result.equ(factor, *known_one);
     return result;
+  }
+
+  template <int dim>
+  void StiffnessCache<dim>::vmult(const Cell &cell,
+                                  dealii::Vector<double> &product,
+                                  const dealii::Vector<double> &values)
+  {
+    const auto [known_one, factor] = find(cell);
+    known_one->vmult(product, values);
+    product *= factor;
   }
 
   template class StiffnessCache<2>;

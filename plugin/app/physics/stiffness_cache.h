@@ -41,12 +41,19 @@ namespace abut::app
     /** Matrix of @p cell, valid until the next call. */
     const dealii::FullMatrix<double> &matrix(const Cell &cell);
 
+    /** The product of the matrix of @p cell with @p values. */
+    void vmult(const Cell &cell, dealii::Vector<double> &product,
+               const dealii::Vector<double> &values);
+
   private:
     /** Material, then the vertices relative to the first one. */
     using Key =
         std::array<std::int64_t,
                    1 + dim *(dealii::GeometryInfo<dim>::vertices_per_cell - 1)>;
 
+    /** A matrix that is that of @p cell by a factor. */
+    std::pair<const dealii::FullMatrix<double> *, double>
+    find(const Cell &cell);
     bool has_shape(const Cell &cell) const;
     Key key(const Cell &cell, double size) const;
     void compute(const Cell &cell, dealii::FullMatrix<double> &result);
@@ -57,7 +64,6 @@ namespace abut::app
     dealii::FEValues<dim> values;       ///< of one component
     std::map<Key, std::pair<double, dealii::FullMatrix<double>>> known;
     dealii::FullMatrix<double> result;
-    const dealii::FullMatrix<double> *last = nullptr;
     std::size_t n_asked = 0;
   };
 } // namespace abut::app

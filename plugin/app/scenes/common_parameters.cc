@@ -61,10 +61,10 @@ namespace abut::app
     prm.enter_subsection("Output");
     parameter::declare(prm, "Every", "auto",
                        OrWord(Patterns::Integer(1), "auto"),
-                       parameter::advanced("time steps", "10"),
-                       "Time steps between two sets of fields of a motion. "
-                       "The last step is always written. auto: about 100 sets "
-                       "in a run, or all steps where they are fewer.");
+                       parameter::advanced("steps", "10"),
+                       "Load or time steps between two sets of fields. The "
+                       "last step is always written. auto: about 100 sets in "
+                       "a run, or all steps where they are fewer.");
     parameter::declare(
         prm, "All levels", "false", Patterns::Bool(), parameter::advanced(),
         "Whether fields are written on every mesh, not only on the last.");

@@ -25,7 +25,7 @@ namespace abut::app
    * scenes with meshes have. */
   void declare_mesh_results(dealii::ParameterHandler &prm);
 
-  /** Steps of a motion whose fields are written: `Output/Every`. */
+  /** Steps whose fields are written: `Output/Every`. */
   struct FieldSteps
   {
     FieldSteps() = default;

@@ -627,7 +627,7 @@ namespace abut::app
                           "use a larger Refinement/Target error.";
         return true;
       }
-      if (state.settings.all_levels)
+      if (state.settings.all_levels && is_written())
         model.write_fields();
       refine();
       pass();
@@ -740,17 +740,67 @@ namespace abut::app
                   > model.newton_parameters().max_steps;
   }
 
+  template <int dim> bool ContactRun<dim>::is_written() const
+  {
+    const LoadSteps &steps = state.load_steps;
+    return (steps.n_accepted() + 1) % state.settings.every == 0
+           || steps.target() >= state.settings.load_steps.end_time;
+  }
+
+  template <int dim> void ContactRun<dim>::roll_back()
+  {
+    if (!model.has_contact())
+      return;
+    state.contact.rollback();
+    // Nor are the preconditioners of the step that failed kept.
+    set_parameters();
+  }
+
+  template <int dim> bool ContactRun<dim>::is_nonlinear() const
+  {
+    return !model.problem().is_linear()
+           || (model.has_contact() && state.contact.points_move());
+  }
+
+  template <int dim>
+  bool ContactRun<dim>::solve_load_step(const la::Vector &before)
+  {
+    const LoadSteps &steps = state.load_steps;
+    if (steps.n_accepted() == 0)
+      return solve_on_hierarchy();
+    if (last_increment)
+    {
+      state.u.add((steps.target() - steps.time()) / last_length,
+                  *last_increment);
+      if (solve())
+        return true;
+      report.detail("from where the last load step leads there is no way; once "
+                    "more from its end");
+      last_increment.reset();
+      state.u = before;
+      roll_back();
+    }
+    return solve();
+  }
+
   template <int dim> bool ContactRun<dim>::take_load_step()
   {
     LoadSteps &load_steps = state.load_steps;
     const la::Vector before(state.u);
     model.set_time(load_steps.target());
     const bool is_first = load_steps.n_accepted() == 0;
-    if (is_first ? solve_on_hierarchy() : solve())
+    if (solve_load_step(before))
     {
+      if (!model.has_inertia() && is_nonlinear())
+      {
+        last_increment = state.u;
+        *last_increment -= is_first ? model.start() : before;
+        last_length = load_steps.target() - load_steps.time();
+      }
       largest_load = std::max(largest_load, model.problem().load.linfty_norm());
       largest_motion = std::max(largest_motion, state.u.linfty_norm());
-      model.write_fields();
+      if (is_written())
+        model.write_fields();
       if (model.has_contact())
         state.contact.commit(state.u);
       const Message why = model.commit();
@@ -802,12 +852,8 @@ namespace abut::app
       return goes_on;
     }
     state.u = before;
-    if (model.has_contact())
-    {
-      state.contact.rollback();
-      // Nor are the preconditioners of the step that failed kept.
-      set_parameters();
-    }
+    last_increment.reset();
+    roll_back();
     return goes_on;
   }
 

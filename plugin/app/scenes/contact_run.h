@@ -107,6 +107,16 @@ namespace abut::app
     /** Refine a mesh of triangles or tetrahedra as flagged; returns the fields
      * on it. */
     std::vector<la::Vector> bisect();
+    /** Whether fields of the present step are written. */
+    bool is_written() const;
+    /** Whether solves go step by step, so that a start nearer to the answer
+     * saves some. */
+    bool is_nonlinear() const;
+    /** Solve the present load step. Steps but the first start where the last
+     * one leads, and if that fails, where it has ended: at @p before. */
+    bool solve_load_step(const la::Vector &before);
+    /** Contact as at the end of the last load step. */
+    void roll_back();
     bool take_load_step();
     void begin();
     bool take_load_steps();
@@ -122,6 +132,7 @@ namespace abut::app
       std::string run, report;
       bool has_pressure = false;  ///< beside the displacement
       bool has_start = false;     ///< of the target
+      bool has_increment = false; ///< of the last load step
       bool has_contact = false;   ///< a history of it
       std::string contact;        ///< the history, on rank 0
       std::string preconditioner; ///< of these ranks
@@ -129,7 +140,8 @@ namespace abut::app
 
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
-        archive &run &report &has_pressure &has_start &has_contact;
+        archive &run &report &has_pressure &has_start &has_increment;
+        archive &has_contact;
         archive &contact &preconditioner &mesh;
       }
     };
@@ -188,6 +200,8 @@ namespace abut::app
     LightTouches light_touches;     ///< of all of them
     StepTable steps;
     double counted_before = 0.;
+    std::optional<la::Vector> last_increment; ///< of the last load step
+    double last_length = 0.;                  ///< of the same, in time
 
     MeshHistory<dim> mesh_history;
     Checkpoint marked; ///< without the mesh

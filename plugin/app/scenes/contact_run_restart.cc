@@ -24,7 +24,7 @@ namespace abut::app
     archive &law &of_model;
     archive &state.control &state.load_steps &state.mesh_number;
     archive &state.results &state.n_searches &state.n_repeated_searches;
-    archive &steps &counted_before &light_touches;
+    archive &steps &counted_before &light_touches &last_length;
     if (!Archive::is_loading::value)
       return;
     // A law that was chosen for the first mesh, or the one of the file.
@@ -87,6 +87,10 @@ namespace abut::app
     marked.has_start = state.control.start().size() > 0;
     if (marked.has_start)
       fields.push_back(state.control.start());
+    // Not changed since the mark.
+    marked.has_increment = last_increment.has_value();
+    if (marked.has_increment)
+      fields.push_back(*last_increment);
     for (la::Vector &field : model.history())
       fields.push_back(std::move(field));
     std::ostringstream contact(std::ios::binary);
@@ -130,13 +134,19 @@ namespace abut::app
     };
     std::vector<la::Vector> fields = load_mesh<dim>(
         restart.source(), restart.has_same_ranks() ? &saved.mesh : nullptr,
-        1u + saved.has_pressure + saved.has_start + model.n_history(),
+        1u + saved.has_pressure + saved.has_start + saved.has_increment
+            + model.n_history(),
         model.triangulation, mesh_history, model.problem().dof_handler, setup);
     model.check_setup();
     state.u = fields.front();
     const std::size_t n_history = model.n_history();
     model.resume({fields.end() - n_history, fields.end()});
     fields.resize(fields.size() - n_history);
+    if (saved.has_increment)
+    {
+      last_increment = std::move(fields.back());
+      fields.pop_back();
+    }
     if (saved.has_start)
       state.control.restore_start(fields.back());
     if (saved.has_pressure)
@@ -153,7 +163,7 @@ namespace abut::app
     state.contact.state().load(stream);
     // A step of a motion has taken the displacement on its way. Without one
     // nothing has moved before the first step.
-    la::Vector committed(model.has_inertia() ? model.last_place() : state.u);
+    la::Vector committed(model.has_inertia() ? model.last_place() : marked_u);
     if (state.load_steps.n_accepted() == 0 && !model.has_inertia())
       committed = 0.;
     model.set_contact(state.contact, state.load_steps.time());

@@ -22,7 +22,8 @@ namespace abut::app
     const MethodParameters &method;
     const SolverParameters &solver;
     LoadStepOptions load_steps;
-    bool all_levels; ///< fields of all meshes, each solved to the end
+    bool all_levels;    ///< fields of all meshes, each solved to the end
+    unsigned int every; ///< steps between two sets of fields
   };
 
   /** Where a run stands: what ContactRun changes, and models read. */

@@ -37,8 +37,6 @@ namespace abut::app
   {
     const std::string at_rest = is_at_rest(first);
     EffectRules rules = scheme_effects(Weight::data);
-    rules.push_back(
-        effective_if("Output/Every", Weight::setting, has_motion, at_rest));
     std::vector<std::string> names = {
         "Time stepping/Step size", "Time stepping/Mass *",
         "Time stepping/Mass matrix", "Time stepping/Stiffness damping"};

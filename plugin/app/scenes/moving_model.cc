@@ -103,14 +103,6 @@ namespace abut::app
       prepare_contact(contact);
   }
 
-  template <int dim>
-  bool MovingModel<dim>::is_written(const unsigned int every) const
-  {
-    const LoadSteps &steps = run.load_steps;
-    return !motion || (steps.n_accepted() + 1) % every == 0
-           || steps.target() >= run.settings.load_steps.end_time;
-  }
-
   template <int dim> std::vector<la::Vector> MovingModel<dim>::history() const
   {
     return motion ? motion->bodies().fields() : std::vector<la::Vector>();

@@ -67,10 +67,6 @@ namespace abut::app
     /** The matrix that penalties are measured by. */
     virtual const la::Matrix &reference_stiffness() const = 0;
 
-    /** Whether fields of the present step are wanted: of motions after every
-     * so many, and at the end. */
-    bool is_written(unsigned int every) const;
-
     /** Tell the assembler of another tangent. */
     void renew_tangent(ContactAssembler<dim> &contact);
 

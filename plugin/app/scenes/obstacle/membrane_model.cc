@@ -244,9 +244,8 @@ namespace abut::app
     std::string text = std::string(dim == 2 ? "membrane" : "scalar field")
                        + ", " + law_in_words(run.method);
     if (motion)
-      text += std::string(", in time by ") + parameters.time.scheme.name
-              + (parameters.fields ? parameters.field_steps.in_words() : "");
-    return text;
+      text += std::string(", in time by ") + parameters.time.scheme.name;
+    return text + (parameters.fields ? parameters.field_steps.in_words() : "");
   }
 
   template <int dim>
@@ -315,7 +314,7 @@ namespace abut::app
 
   template <int dim> void MembraneModel<dim>::write_fields()
   {
-    if (parameters.fields && this->is_written(parameters.field_steps.every))
+    if (parameters.fields)
       write_present();
   }
 

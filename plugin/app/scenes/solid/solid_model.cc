@@ -268,8 +268,7 @@ namespace abut::app
 
   template <int dim> void SolidModel<dim>::write_fields()
   {
-    if (this->is_written(parameters.field_steps.every))
-      output.write_fields();
+    output.write_fields();
   }
 
   template <int dim> void SolidModel<dim>::set_time(const double time)
@@ -735,9 +734,8 @@ namespace abut::app
     if (has_large_strain())
       text += ", finite strain";
     if (motion)
-      text += std::string(", in time by ") + parameters.time.scheme.name
-              + (parameters.fields ? parameters.field_steps.in_words() : "");
-    return text;
+      text += std::string(", in time by ") + parameters.time.scheme.name;
+    return text + (parameters.fields ? parameters.field_steps.in_words() : "");
   }
 
   template <int dim> void SolidModel<dim>::report_check()

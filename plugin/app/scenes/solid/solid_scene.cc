@@ -205,8 +205,9 @@ namespace abut::app
 
       ContactRunSettings settings() const override
       {
-        return {parameters.refinement, this->method, this->solver,
-                parameters.load_steps, parameters.all_levels};
+        return {parameters.refinement, this->method,
+                this->solver,          parameters.load_steps,
+                parameters.all_levels, parameters.field_steps.every};
       }
 
       std::unique_ptr<ContactModel<dim>>
