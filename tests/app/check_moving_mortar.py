@@ -87,7 +87,8 @@ def check_turn(dimension, *words):
     scene = turn(p, dimension)
     here = solved(scene, *FINE, *words, "Time stepping/End time=0.2",
                   "Time stepping/Number of steps=3")
-    there = solved(scene, *FINE, *words)
+    # Far enough from the answer for three errors above round-off.
+    there = solved(scene, *FINE, *words, "Time stepping/Extrapolate=false")
     what = f"turned in {dimension}D {words}"
     for key in ("energy", "pair_1_pressure", "least_stretch", "least_volume",
                 "pair_1_contact_area"):

@@ -10,7 +10,9 @@ RUBBER = ["Material = neo-hooke", "Young modulus = 1", "Poisson ratio = 0.3"]
 
 
 def newton(p, load_step):
-    return [row for row in p.table("newton.csv") if row["load_step"] == load_step]
+    """Rows of the last attempt at a load step."""
+    rows = [row for row in p.table("newton.csv") if row["load_step"] == load_step]
+    return rows[max(i for i, row in enumerate(rows) if row["linearisation"] == 1.):]
 
 
 # Two blocks are pressed until t = 0.2, then turned about the origin, as a whole

@@ -232,6 +232,11 @@ namespace abut::app
   {
     NewtonParameters parameters = model.newton_parameters();
     parameters.useless_imbalance = 0.; // refuse() knows better what it is
+    // What does not converge as usual does not from a bad start.
+    constexpr unsigned int usual = 6;
+    if (is_extrapolated)
+      parameters.max_steps = std::min(parameters.max_steps,
+                                      std::max(usual, 2 * last_linearisations));
     const unsigned int sweeps = state.settings.refinement.relaxation_sweeps;
     if (abut_law_needs_open_start(state.method.options.law))
       parameters.relaxation_sweeps = std::max(1u, sweeps);
@@ -763,20 +768,49 @@ namespace abut::app
   }
 
   template <int dim>
+  std::optional<la::Vector> ContactRun<dim>::extrapolated() const
+  {
+    if (!last_increment)
+      return {};
+    // Part of an increment that a prescribed displacement may differ by.
+    constexpr double same_direction = 0.5;
+    const LoadSteps &steps = state.load_steps;
+    la::Vector result(state.u);
+    result.add((steps.target() - steps.time()) / last_length, *last_increment);
+    la::Vector prescribed(result);
+    model.problem().constraints.distribute(prescribed);
+    double largest[2] = {0., 0.};
+    for (const auto &line : model.problem().constraints.get_lines())
+      if (line.entries.empty() && result.in_local_range(line.index))
+      {
+        const double after = result(line.index);
+        largest[0] =
+            std::max(largest[0], std::abs(prescribed(line.index) - after));
+        largest[1] =
+            std::max(largest[1], std::abs(after - state.u(line.index)));
+      }
+    dealii::Utilities::MPI::max(largest, state.communicator, largest);
+    if (largest[0] > same_direction * largest[1])
+      return {};
+    return result;
+  }
+
+  template <int dim>
   bool ContactRun<dim>::solve_load_step(const la::Vector &before)
   {
-    const LoadSteps &steps = state.load_steps;
-    if (steps.n_accepted() == 0)
+    if (state.load_steps.n_accepted() == 0)
       return solve_on_hierarchy();
-    if (last_increment)
+    const std::optional<la::Vector> start = extrapolated();
+    if (start)
     {
-      state.u.add((steps.target() - steps.time()) / last_length,
-                  *last_increment);
-      if (solve())
+      state.u = *start;
+      is_extrapolated = true;
+      const bool solved = solve();
+      is_extrapolated = false;
+      if (solved)
         return true;
-      report.detail("from where the last load step leads there is no way; once "
-                    "more from its end");
-      last_increment.reset();
+      report.detail("no answer from where the last load step leads; again from "
+                    "where it has ended");
       state.u = before;
       roll_back();
     }
@@ -791,11 +825,12 @@ namespace abut::app
     const bool is_first = load_steps.n_accepted() == 0;
     if (solve_load_step(before))
     {
-      if (!model.has_inertia() && is_nonlinear())
+      if (state.settings.extrapolate && !model.has_inertia() && is_nonlinear())
       {
         last_increment = state.u;
         *last_increment -= is_first ? model.start() : before;
         last_length = load_steps.target() - load_steps.time();
+        last_linearisations = state.present.linearisations;
       }
       largest_load = std::max(largest_load, model.problem().load.linfty_norm());
       largest_motion = std::max(largest_motion, state.u.linfty_norm());

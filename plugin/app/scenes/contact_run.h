@@ -109,9 +109,12 @@ namespace abut::app
     std::vector<la::Vector> bisect();
     /** Whether fields of the present step are written. */
     bool is_written() const;
-    /** Whether solves go step by step, so that a start nearer to the answer
-     * saves some. */
+    /** Whether solves are iterations, which a start near the answer shortens.
+     */
     bool is_nonlinear() const;
+    /** Displacement where the last load step leads; none: there is no such
+     * step, or supports have changed their direction. Collective. */
+    std::optional<la::Vector> extrapolated() const;
     /** Solve the present load step. Steps but the first start where the last
      * one leads, and if that fails, where it has ended: at @p before. */
     bool solve_load_step(const la::Vector &before);
@@ -202,6 +205,8 @@ namespace abut::app
     double counted_before = 0.;
     std::optional<la::Vector> last_increment; ///< of the last load step
     double last_length = 0.;                  ///< of the same, in time
+    unsigned int last_linearisations = 0;     ///< of the same
+    bool is_extrapolated = false; ///< the start of the present solve
 
     MeshHistory<dim> mesh_history;
     Checkpoint marked; ///< without the mesh

@@ -24,7 +24,8 @@ namespace abut::app
     archive &law &of_model;
     archive &state.control &state.load_steps &state.mesh_number;
     archive &state.results &state.n_searches &state.n_repeated_searches;
-    archive &steps &counted_before &light_touches &last_length;
+    archive &steps &counted_before &light_touches;
+    archive &last_length &last_linearisations;
     if (!Archive::is_loading::value)
       return;
     // A law that was chosen for the first mesh, or the one of the file.

@@ -24,6 +24,7 @@ namespace abut::app
     LoadStepOptions load_steps;
     bool all_levels;    ///< fields of all meshes, each solved to the end
     unsigned int every; ///< steps between two sets of fields
+    bool extrapolate;   ///< the last load step, for the start of the next
   };
 
   /** Where a run stands: what ContactRun changes, and models read. */

@@ -30,9 +30,13 @@ namespace abut::app
 
       ContactRunSettings settings() const override
       {
-        return {parameters.refinement, this->method,
-                this->solver,          parameters.load_steps,
-                parameters.all_levels, parameters.field_steps.every};
+        return {parameters.refinement,
+                this->method,
+                this->solver,
+                parameters.load_steps,
+                parameters.all_levels,
+                parameters.field_steps.every,
+                false};
       }
 
       std::unique_ptr<ContactModel<dim>>

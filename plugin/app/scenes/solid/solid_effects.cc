@@ -311,8 +311,16 @@ namespace abut::app
     {
       const auto in_steps = [](const SceneValues &values)
       { return !has_motion(values); };
+      const auto iterates = [](const SceneValues &values)
+      {
+        return !has_motion(values)
+               && (has_nonlinear_material(values) || points_may_move(values));
+      };
       return {data("Time stepping/Number of steps", in_steps,
-                   "dynamics has steps of Time stepping/Step size.")};
+                   "dynamics has steps of Time stepping/Step size."),
+              setting("Time stepping/Extrapolate", iterates,
+                      "it belongs to load steps of finite strain, or with "
+                      "Method/Contact geometry = current.")};
     }
   } // namespace
 

@@ -260,6 +260,13 @@ namespace abut::app
       prm.leave_subsection();
     }
     LoadStepParameters::declare(prm);
+    prm.enter_subsection("Time stepping");
+    parameter::declare(
+        prm, "Extrapolate", "true", Patterns::Bool(), parameter::expert(),
+        "Finite strain and large sliding: whether a load step starts where the "
+        "last increment leads. Where that fails, or supports change their "
+        "direction, it starts from the last answer.");
+    prm.leave_subsection();
     InertiaParameters::declare(
         prm,
         "quasi-static|hht|trapezoid|midpoint|newmark|generalised alpha|contact "
@@ -301,6 +308,9 @@ namespace abut::app
     load_steps.parse(prm);
     refinement.parse(prm);
     time.parse(prm);
+    prm.enter_subsection("Time stepping");
+    extrapolate = prm.get_bool("Extrapolate");
+    prm.leave_subsection();
     check_materials();
     if (time.is_on)
       begin_motion();

@@ -52,6 +52,7 @@ namespace abut::app
     // Output
     bool fields = true;
     FieldSteps field_steps;
+    bool extrapolate = true; ///< load steps
     bool all_levels = false;
     bool nodal_values = false;
     std::string points;

@@ -207,7 +207,8 @@ namespace abut::app
       {
         return {parameters.refinement, this->method,
                 this->solver,          parameters.load_steps,
-                parameters.all_levels, parameters.field_steps.every};
+                parameters.all_levels, parameters.field_steps.every,
+                parameters.extrapolate};
       }
 
       std::unique_ptr<ContactModel<dim>>
