@@ -132,7 +132,7 @@ namespace abut::solve
     /** In place of it: K, and apart from it what contact adds to K, so that a
      * new set costs what is near it. */
     std::unique_ptr<GeometricMultigrid> geometric_;
-    /** Of the stiffness, and of the one in it. */
+    /** Stiffness::values() of the present matrix, and of the one in it. */
     std::shared_ptr<const void> values_, geometric_of_;
     std::unique_ptr<ContactFilter> filter_;
   };

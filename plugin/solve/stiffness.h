@@ -51,7 +51,7 @@ namespace abut::solve
     }
 
   private:
-    /** What was asked for, common to copies. */
+    /** Data that are found at the first request, common to copies. */
     struct Found
     {
       std::optional<std::vector<double>> diagonal;
