@@ -68,6 +68,7 @@ namespace abut
     abandon_iteration();
     if (system.bodies)
       solve::forget_factors(*system.bodies->kept);
+    moving.forget_pattern();
     if (source == nullptr)
       start.return_to_history(nullptr, history);
     else
@@ -88,6 +89,7 @@ namespace abut
     i.history.commit();
     if (i.system.bodies)
       solve::forget_factors(*i.system.bodies->kept);
+    i.moving.forget_pattern();
     i.scales.committed_load =
         std::max(i.scales.committed_load, i.scales.present_load);
     if (i.surfaces != nullptr && i.rows.are_found)

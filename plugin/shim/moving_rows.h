@@ -30,6 +30,13 @@ namespace abut::shim
     void set_substitution(const solve::PointOperator &rows,
                           const std::vector<solve::GapLine> &lines);
 
+    /** At the end of a step: the next one has the same digits in a run that
+     * begins there. */
+    void forget_pattern()
+    {
+      sum_.forget_pattern();
+    }
+
     bool has_geometry() const
     {
       return has_geometry_;

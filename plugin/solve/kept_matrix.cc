@@ -186,6 +186,11 @@ namespace abut::solve
       add_lines(rows_, lines, place_);
   }
 
+  void KeptMatrix::forget_pattern()
+  {
+    n_growths_ = most_growths;
+  }
+
   void KeptMatrix::add(const MatrixLines &all)
   {
     const MPI_Comm communicator = matrix_->get_mpi_communicator();

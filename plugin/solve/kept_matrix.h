@@ -21,6 +21,9 @@ namespace abut::solve
     /** Make it @p matrix, which must have all diagonal entries. Collective. */
     void set(const la::Matrix &matrix);
 
+    /** Have the pattern of the next matrix alone, as if it was the first. */
+    void forget_pattern();
+
     /** Add @p lines, also to rows of other ranks. Call set() first. Collective.
      */
     void add(const MatrixLines &lines);
