@@ -89,7 +89,7 @@ namespace abut::app
   }
 
   template <int dim>
-  std::pair<const dealii::FullMatrix<double> *, double>
+  typename StiffnessCache<dim>::Scaled
   StiffnessCache<dim>::find(const Cell &cell)
   {
     ++n_asked;
@@ -128,9 +128,19 @@ namespace abut::app
                                   dealii::Vector<double> &product,
                                   const dealii::Vector<double> &values)
   {
-    const auto [known_one, factor] = find(cell);
-    known_one->vmult(product, values);
-    product *= factor;
+    auto entry = of_cell.find(cell->active_cell_index());
+    Scaled scaled;
+    if (entry != of_cell.end())
+      scaled = entry->second;
+    else
+    {
+      scaled = find(cell);
+      // Not what the next call changes.
+      if (scaled.first != &result)
+        of_cell.emplace(cell->active_cell_index(), scaled);
+    }
+    scaled.first->vmult(product, values);
+    product *= scaled.second;
   }
 
   template class StiffnessCache<2>;

@@ -18,6 +18,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <unordered_map>
+#include <utility>
 
 namespace abut::app
 {
@@ -41,7 +43,8 @@ namespace abut::app
     /** Matrix of @p cell, valid until the next call. */
     const dealii::FullMatrix<double> &matrix(const Cell &cell);
 
-    /** The product of the matrix of @p cell with @p values. */
+    /** The product of the matrix of @p cell with @p values; for the same cells
+     * again and again. */
     void vmult(const Cell &cell, dealii::Vector<double> &product,
                const dealii::Vector<double> &values);
 
@@ -52,8 +55,8 @@ namespace abut::app
                    1 + dim *(dealii::GeometryInfo<dim>::vertices_per_cell - 1)>;
 
     /** A matrix that is that of @p cell by a factor. */
-    std::pair<const dealii::FullMatrix<double> *, double>
-    find(const Cell &cell);
+    using Scaled = std::pair<const dealii::FullMatrix<double> *, double>;
+    Scaled find(const Cell &cell);
     bool has_shape(const Cell &cell) const;
     Key key(const Cell &cell, double size) const;
     void compute(const Cell &cell, dealii::FullMatrix<double> &result);
@@ -63,6 +66,8 @@ namespace abut::app
     const MiddleNodes<dim> *const bent; ///< null: straight, or by manifolds
     dealii::FEValues<dim> values;       ///< of one component
     std::map<Key, std::pair<double, dealii::FullMatrix<double>>> known;
+    /** The same by the numbers of cells that products were asked for. */
+    std::unordered_map<unsigned int, Scaled> of_cell;
     dealii::FullMatrix<double> result;
     std::size_t n_asked = 0;
   };
