@@ -64,7 +64,7 @@ namespace abut::shim
       if (seen.lost_displacement() > 0.)
         findings.add(
             ABUT_FAILURE_UNBALANCED, true,
-            "Displacements of up to " + number(seen.lost_displacement())
+            "Displacements of up to " + three_digits(seen.lost_displacement())
                 + " are prescribed, but the residual R has no forces of them. "
                   "Assemble K and the loads in one call of "
                   "distribute_local_to_global() per cell, as K is without the "
@@ -118,11 +118,11 @@ namespace abut::shim
     std::string compared(const DepthScale &scale, const double depth)
     {
       if (scale.way == 0.)
-        return number(depth) + " without deformation";
-      return number(depth) + ", where "
+        return three_digits(depth) + " without deformation";
+      return three_digits(depth) + ", where "
              + (scale.way < scale.far ? "deformation is at most "
                                       : "displacements are at most ")
-             + number(scale.way);
+             + three_digits(scale.way);
     }
 
     template <int dim>
@@ -141,7 +141,8 @@ namespace abut::shim
         findings.add(
             ABUT_FAILURE_SLIDING, pair.slip > length,
             pair.name + ": the surfaces slide on each other by "
-                + number(pair.slip) + ", more than a facet, " + number(facet)
+                + three_digits(pair.slip) + ", more than a facet, "
+                + three_digits(facet)
                 + ", but contact is evaluated at the positions before sliding, "
                   "so the pressure does not move with it. With "
                 + (touches_itself ? "boundary ids and a pair of their own for "
@@ -152,7 +153,8 @@ namespace abut::shim
       if (is_obstacle && scale.is_more(pair.gap_error, visible_gap_error))
         findings.add(
             ABUT_FAILURE_SLIDING, scale.is_more(pair.gap_error, useless),
-            pair.name + ": nodes in contact slide by up to " + number(pair.slip)
+            pair.name + ": nodes in contact slide by up to "
+                + three_digits(pair.slip)
                 + ", and their distance from the obstacle, which is curved or "
                   "has a corner, has an error of "
                 + compared(scale, pair.gap_error) + ", at "
@@ -193,8 +195,9 @@ namespace abut::shim
       findings.add(
           ABUT_FAILURE_SLIDING, !allow && pair.rotation > useless,
           pair.name + ": contact normals have rotated since pairing by "
-              + number(degrees * pair.rotation) + " degrees in their mean, "
-              + number(degrees * pair.largest_rotation)
+              + three_digits(degrees * pair.rotation)
+              + " degrees in their mean, "
+              + three_digits(degrees * pair.largest_rotation)
               + " at most: " + percent(pair.rotation)
               + " of the force differs from the current directions, and the "
                 "resultant "
@@ -329,11 +332,11 @@ namespace abut::shim
             pair.name + ": the obstacle penetrates between nodes by up to "
                 + compared(scale, pair.between_rows)
                 + (!hidden   ? std::string()
-                   : presses ? ", undetected by nodes: " + number(unknown)
+                   : presses ? ", undetected by nodes: " + three_digits(unknown)
                              : ", and no constraint is active")
                 + (missed ? ". Facets without any contact are penetrated by "
                             "up to "
-                                + number(pair.missed_depth)
+                                + three_digits(pair.missed_depth)
                           : std::string())
                 + ". Refine the surface there; smaller load steps do not help.",
             {{"depth", pair.between_rows},
@@ -497,11 +500,11 @@ namespace abut::shim
             ABUT_FAILURE_UNSEEN, missed || hidden,
             "The obstacle penetrates the membrane between nodes by up to "
                 + compared(scale, deepest.any)
-                + (hidden ? ", undetected by nodes: " + number(peak)
+                + (hidden ? ", undetected by nodes: " + three_digits(peak)
                           : std::string())
                 + (missed ? ". Cells without any contact are penetrated by up "
                             "to "
-                                + number(deepest.missed)
+                                + three_digits(deepest.missed)
                           : std::string())
                 + ". Refine the mesh there.",
             {{"depth", deepest.any},

@@ -139,7 +139,7 @@ namespace abut::shim
     change.add(-factor, expected);
     const bool is_multiple = change.l2_norm() <= same * size + round_off;
     const std::string text =
-        "The residual R changes by " + number(is_multiple ? factor : work)
+        "The residual R changes by " + three_digits(is_multiple ? factor : work)
         + " times K du in a step du"
         + (is_multiple ? "" : ", as far as it does work on du")
         + ", where K is its derivative. "

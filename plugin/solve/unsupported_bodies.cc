@@ -10,7 +10,6 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>

@@ -10,8 +10,6 @@
 
 #include <abut/dealii/contact_examination.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
 #include <string>
 
 namespace abut::solve

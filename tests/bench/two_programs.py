@@ -4,7 +4,7 @@
 
 Each program runs the scene of its own source tree, in pairs; writes the median
 ratio of the second program to the first, the range of it, and the medians of
-both in seconds. The parameters of the second need not be known to the first.
+both in seconds.
 
     tests/bench/two_programs.py OLD/build/release/abut build/release/abut \
         ironing ironing-3d two-balls
@@ -12,7 +12,6 @@ both in seconds. The parameters of the second need not be known to the first.
 import os
 import pathlib
 import statistics
-import subprocess
 import tempfile
 
 import measured
@@ -21,13 +20,10 @@ import measured
 def seconds(program, scene, settings):
     """User and system time of one run."""
     source = program.resolve().parents[2]
-    words = [program, "run", source / "prm" / f"{scene}.prm", "--quiet"]
-    for setting in settings:
-        words += ["--set", setting]
     with tempfile.TemporaryDirectory() as folder:
         before = os.times()
-        subprocess.run([*map(str, words), "--output", folder], check=True,
-                       capture_output=True, env=measured.environment())
+        measured.call(program, ["run", "--quiet", "--output", folder],
+                      source / "prm" / f"{scene}.prm", settings)
         after = os.times()
     return (after.children_user - before.children_user
             + after.children_system - before.children_system)
@@ -38,13 +34,13 @@ def main():
     parser.add_argument("other", type=pathlib.Path, help="the second program")
     parser.add_argument("scenes", nargs="+", help="names in prm/")
     parser.add_argument("--pairs", type=int, default=5)
-    parser.add_argument("--set", action="append",
-                        default=["Output/Pictures=false"])
+    measured.add_set(parser)
     arguments = parser.parse_args()
     programs = [pathlib.Path(arguments.abut), arguments.other]
     measured.head(["scene", "ratio", "range", "first, s", "second, s"])
     for scene in arguments.scenes:
-        times = [[seconds(program, scene, arguments.set)
+        times = [[seconds(
+            program, scene, ["Output/Pictures=false", *arguments.set])
                   for program in programs] for _ in range(arguments.pairs)]
         ratios = [second / first for first, second in times]
         measured.row([scene, f"{statistics.median(ratios):.3f}",

@@ -189,8 +189,8 @@ namespace abut::app
     }
 
     /** Place of a corner of a quadrilateral or hexahedron in deal.II's order.
-     * Not GeometryInfo's, which depends on the version of deal.II: only since
-     * 9.5 are its hexahedra right-handed. */
+     * GeometryInfo has left-handed hexahedra in deal.II 9.4 and right-handed
+     * ones in 9.6. */
     template <int dim> unsigned int place_of_corner(const unsigned int c)
     {
       constexpr unsigned int of_quadrilateral[] = {0, 1, 3, 2},

@@ -133,6 +133,9 @@ namespace abut::app
      * effect with the next mesh. */
     bool renumber = false;
 
+    /** The entries of a vector at prescribed unknowns, 0 at all others. */
+    la::Vector at_supports(const la::Vector &values) const;
+
   protected:
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
     /** Writes the product of the stiffness of a cell with values there. */
@@ -155,9 +158,6 @@ namespace abut::app
      * only there the matrix does not say what forces are. Found once for each
      * mesh; collective then. */
     const std::vector<Cell> &support_cells() const;
-
-    /** The entries of a vector at prescribed unknowns, 0 at all others. */
-    la::Vector at_supports(const la::Vector &values) const;
 
     /** What the cells at supports add to the product of the matrix with the
      * free part of @p u: forces of prescribed values at free unknowns, and all

@@ -128,17 +128,11 @@ namespace abut::app
                                   dealii::Vector<double> &product,
                                   const dealii::Vector<double> &values)
   {
-    auto entry = of_cell.find(cell->active_cell_index());
-    Scaled scaled;
-    if (entry != of_cell.end())
-      scaled = entry->second;
-    else
-    {
-      scaled = find(cell);
-      // Not what the next call changes.
-      if (scaled.first != &result)
-        of_cell.emplace(cell->active_cell_index(), scaled);
-    }
+    const auto entry = of_cell.find(cell->active_cell_index());
+    const Scaled scaled = entry != of_cell.end() ? entry->second : find(cell);
+    // Not what the next call changes.
+    if (entry == of_cell.end() && scaled.first != &result)
+      of_cell.emplace(cell->active_cell_index(), scaled);
     scaled.first->vmult(product, values);
     product *= scaled.second;
   }

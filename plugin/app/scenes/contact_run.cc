@@ -235,8 +235,8 @@ namespace abut::app
     // What does not converge as usual does not from a bad start.
     constexpr unsigned int usual = 6;
     if (is_extrapolated)
-      parameters.max_steps = std::min(parameters.max_steps,
-                                      std::max(usual, 2 * last_linearisations));
+      parameters.max_steps = std::min(
+          parameters.max_steps, std::max(usual, 2 * last_step->linearisations));
     const unsigned int sweeps = state.settings.refinement.relaxation_sweeps;
     if (abut_law_needs_open_start(state.method.options.law))
       parameters.relaxation_sweeps = std::max(1u, sweeps);
@@ -632,7 +632,7 @@ namespace abut::app
                           "use a larger Refinement/Target error.";
         return true;
       }
-      if (state.settings.all_levels && is_written())
+      if (state.settings.all_levels)
         model.write_fields();
       refine();
       pass();
@@ -768,29 +768,37 @@ namespace abut::app
   }
 
   template <int dim>
+  void ContactRun<dim>::note_load_step(const la::Vector &before)
+  {
+    last_step.reset();
+    const LoadSteps &steps = state.load_steps;
+    if (!state.settings.extrapolate || model.has_inertia() || !is_nonlinear()
+        || steps.target() >= state.settings.load_steps.end_time)
+      return;
+    last_step = {state.u, steps.target() - steps.time(),
+                 state.present.linearisations};
+    // The first one may have begun on another mesh.
+    last_step->increment -= steps.n_accepted() == 0 ? model.start() : before;
+  }
+
+  template <int dim>
   std::optional<la::Vector> ContactRun<dim>::extrapolated() const
   {
-    if (!last_increment)
+    if (!last_step)
       return {};
     // Part of an increment that a prescribed displacement may differ by.
     constexpr double same_direction = 0.5;
+    const DiscreteProblem<dim> &problem = model.problem();
     const LoadSteps &steps = state.load_steps;
+    la::Vector increment(last_step->increment);
+    increment *= (steps.target() - steps.time()) / last_step->length;
     la::Vector result(state.u);
-    result.add((steps.target() - steps.time()) / last_length, *last_increment);
-    la::Vector prescribed(result);
-    model.problem().constraints.distribute(prescribed);
-    double largest[2] = {0., 0.};
-    for (const auto &line : model.problem().constraints.get_lines())
-      if (line.entries.empty() && result.in_local_range(line.index))
-      {
-        const double after = result(line.index);
-        largest[0] =
-            std::max(largest[0], std::abs(prescribed(line.index) - after));
-        largest[1] =
-            std::max(largest[1], std::abs(after - state.u(line.index)));
-      }
-    dealii::Utilities::MPI::max(largest, state.communicator, largest);
-    if (largest[0] > same_direction * largest[1])
+    result += increment;
+    la::Vector change(result);
+    problem.constraints.distribute(change);
+    change -= result;
+    if (problem.at_supports(change).linfty_norm()
+        > same_direction * problem.at_supports(increment).linfty_norm())
       return {};
     return result;
   }
@@ -825,13 +833,6 @@ namespace abut::app
     const bool is_first = load_steps.n_accepted() == 0;
     if (solve_load_step(before))
     {
-      if (state.settings.extrapolate && !model.has_inertia() && is_nonlinear())
-      {
-        last_increment = state.u;
-        *last_increment -= is_first ? model.start() : before;
-        last_length = load_steps.target() - load_steps.time();
-        last_linearisations = state.present.linearisations;
-      }
       largest_load = std::max(largest_load, model.problem().load.linfty_norm());
       largest_motion = std::max(largest_motion, state.u.linfty_norm());
       if (is_written())
@@ -839,6 +840,7 @@ namespace abut::app
       if (model.has_contact())
         state.contact.commit(state.u);
       const Message why = model.commit();
+      note_load_step(before);
       load_steps.accept(is_hard());
       if (!why.empty())
       {
@@ -887,7 +889,7 @@ namespace abut::app
       return goes_on;
     }
     state.u = before;
-    last_increment.reset();
+    last_step.reset();
     roll_back();
     return goes_on;
   }

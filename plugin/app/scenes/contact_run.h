@@ -112,6 +112,16 @@ namespace abut::app
     /** Whether solves are iterations, which a start near the answer shortens.
      */
     bool is_nonlinear() const;
+    /** A load step that the next one is extrapolated from. */
+    struct LastStep
+    {
+      la::Vector increment;
+      double length = 0.; ///< in time
+      unsigned int linearisations = 0;
+    };
+    /** Note the present one, which has begun at @p before, if there is a next
+     * one that wants it. */
+    void note_load_step(const la::Vector &before);
     /** Displacement where the last load step leads; none: there is no such
      * step, or supports have changed their direction. Collective. */
     std::optional<la::Vector> extrapolated() const;
@@ -136,6 +146,8 @@ namespace abut::app
       bool has_pressure = false;  ///< beside the displacement
       bool has_start = false;     ///< of the target
       bool has_increment = false; ///< of the last load step
+      double length = 0.;         ///< of the same
+      unsigned int linearisations = 0;
       bool has_contact = false;   ///< a history of it
       std::string contact;        ///< the history, on rank 0
       std::string preconditioner; ///< of these ranks
@@ -144,7 +156,7 @@ namespace abut::app
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
         archive &run &report &has_pressure &has_start &has_increment;
-        archive &has_contact;
+        archive &length &linearisations &has_contact;
         archive &contact &preconditioner &mesh;
       }
     };
@@ -203,10 +215,8 @@ namespace abut::app
     LightTouches light_touches;     ///< of all of them
     StepTable steps;
     double counted_before = 0.;
-    std::optional<la::Vector> last_increment; ///< of the last load step
-    double last_length = 0.;                  ///< of the same, in time
-    unsigned int last_linearisations = 0;     ///< of the same
-    bool is_extrapolated = false; ///< the start of the present solve
+    std::optional<LastStep> last_step; ///< none: not wanted
+    bool is_extrapolated = false;      ///< the start of the present solve
 
     MeshHistory<dim> mesh_history;
     Checkpoint marked; ///< without the mesh

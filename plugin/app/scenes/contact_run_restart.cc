@@ -25,7 +25,6 @@ namespace abut::app
     archive &state.control &state.load_steps &state.mesh_number;
     archive &state.results &state.n_searches &state.n_repeated_searches;
     archive &steps &counted_before &light_touches;
-    archive &last_length &last_linearisations;
     if (!Archive::is_loading::value)
       return;
     // A law that was chosen for the first mesh, or the one of the file.
@@ -89,9 +88,13 @@ namespace abut::app
     if (marked.has_start)
       fields.push_back(state.control.start());
     // Not changed since the mark.
-    marked.has_increment = last_increment.has_value();
-    if (marked.has_increment)
-      fields.push_back(*last_increment);
+    marked.has_increment = last_step.has_value();
+    if (last_step)
+    {
+      fields.push_back(last_step->increment);
+      marked.length = last_step->length;
+      marked.linearisations = last_step->linearisations;
+    }
     for (la::Vector &field : model.history())
       fields.push_back(std::move(field));
     std::ostringstream contact(std::ios::binary);
@@ -145,7 +148,8 @@ namespace abut::app
     fields.resize(fields.size() - n_history);
     if (saved.has_increment)
     {
-      last_increment = std::move(fields.back());
+      last_step = {std::move(fields.back()), saved.length,
+                   saved.linearisations};
       fields.pop_back();
     }
     if (saved.has_start)

@@ -8,6 +8,13 @@ namespace abut::app
     return values("Time stepping/Scheme") != "quasi-static";
   }
 
+  bool has_steps(const SceneValues &values)
+  {
+    const char *const n_steps = "Time stepping/Number of steps";
+    return has_motion(values)
+           || (!values(n_steps).empty() && values.number(n_steps) > 1.);
+  }
+
   std::string is_at_rest(const std::string &first)
   {
     return "it belongs to dynamics, and Time stepping/Scheme is quasi-static. "
@@ -37,6 +44,8 @@ namespace abut::app
   {
     const std::string at_rest = is_at_rest(first);
     EffectRules rules = scheme_effects(Weight::data);
+    rules.push_back(effective_if("Output/Every", Weight::setting, has_steps,
+                                 "the run has one step."));
     std::vector<std::string> names = {
         "Time stepping/Step size", "Time stepping/Mass *",
         "Time stepping/Mass matrix", "Time stepping/Stiffness damping"};

@@ -9,6 +9,9 @@ namespace abut::app
   /** Whether Time stepping/Scheme has inertia. */
   bool has_motion(const SceneValues &values);
 
+  /** Whether a scene has several load steps, or time steps. */
+  bool has_steps(const SceneValues &values);
+
   /** The reason why data of dynamics have no effect; @p first is the scheme to
    * begin with. */
   std::string is_at_rest(const std::string &first);

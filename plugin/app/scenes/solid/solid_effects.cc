@@ -313,14 +313,14 @@ namespace abut::app
       { return !has_motion(values); };
       const auto iterates = [](const SceneValues &values)
       {
-        return !has_motion(values)
+        return has_steps(values) && !has_motion(values)
                && (has_nonlinear_material(values) || points_may_move(values));
       };
       return {data("Time stepping/Number of steps", in_steps,
                    "dynamics has steps of Time stepping/Step size."),
               setting("Time stepping/Extrapolate", iterates,
-                      "it belongs to load steps of finite strain, or with "
-                      "Method/Contact geometry = current.")};
+                      "it belongs to several load steps of finite strain, or "
+                      "with Method/Contact geometry = current.")};
     }
   } // namespace
 
