@@ -9,7 +9,7 @@ Barrier mu: s = h - u solves k s^2 + (mg - k h) s = mu, p = mu / s."""
 import math
 import re
 
-from program import Program
+from program import Program, set_words
 
 p = Program()
 K, H, MG = 1, 1, 3
@@ -168,5 +168,31 @@ p.close(summary["displacement"][0], 0.5, 1e-12, "two u_1")
 p.close(summary["displacement"][1], -0.25, 1e-12, "two u_2")
 p.close(summary["contact_force"][0], 2.75, 1e-12, "two p_1")
 p.close(summary["contact_force"][1], 3.0, 1e-12, "two p_2")
+
+# A penalty that is not felt, a barrier below round-off, a number without effect.
+result = p.call("run", "two.prm", "--output", "out",
+                *set_words(["Method/Enforcement=penalty",
+                            "Method/Penalty factor=1e-6"]))
+p.expect(result.returncode == 0 and "ABUT-F06: Method/Penalty factor is 1e-06"
+         in result.stderr, f"soft: {result.stderr}")
+p.write("open.prm", """set Scene = point mass
+subsection Masses
+  set Stiffness = 40
+  set Force = 14.715
+end
+subsection Constraints
+  set B = -1
+  set Initial gap = 0.2
+end
+""")
+result = p.call("run", "open.prm", "--output", "out",
+                *set_words(["Method/Enforcement=barrier",
+                            "Method/Barrier parameter=1e-20"]))
+p.expect(result.returncode == 3 and "by round-off" in result.stderr,
+         f"barrier of 1e-20: {result.stderr}")
+p.expect_error(p.call("run", "open.prm",
+                      *set_words(["Method/Enforcement=interior point",
+                                  "Method/Barrier parameter=0.1"])),
+               "Barrier parameter", "Method/Enforcement = barrier.")
 
 p.finish()

@@ -211,8 +211,12 @@ for kind, exact in EXACT.items():
 for words, *texts in ((["block"], "block.prm", "not overwritten"),
                       (["hertzz", "x.prm"], "'hertz'?", "two-bodies, friction"),
                       ([], "needs a kind", "masses"),
-                      (["block", "x.prm", "y"], "takes no 'y'")):
+                      (["block", "x.prm", "y"], "takes no 'y'"),
+                      (["block", "-o"], "no option '-o'", "[FILE.prm]")):
     p.expect_error(p.call("new", *words), *texts)
+result = p.call("new", "block", "--help")
+p.expect(result.returncode == 0 and "Write a scene" in result.stdout
+         and not (p.folder / "--help").exists(), "new block --help")
 p.expect(p.call("new", "masses", "other.prm").returncode == 0
          and (p.folder / "other.prm").exists(), "new masses other.prm")
 

@@ -59,6 +59,32 @@ p.expect_error(run("Pair 1/Initial gap=x"), "Pair 1/Initial gap")
 p.expect_error(run("Solid/Pairs=0"), "Pair 1/Primary",
                "Solid/Pairs is 0: set it to 1")
 
+# Two blocks without a pair.
+p.write("apart.prm", """set Scene = solid
+subsection Solid
+  set Bodies = 2
+end
+subsection Body 1
+  subsection Mesh
+    set Generator = hyper_cube
+    set Arguments = 0 : 1 : true
+  end
+  set Prescribed displacement = 2: 0, 0
+end
+subsection Body 2
+  subsection Mesh
+    set Generator = hyper_cube
+    set Arguments = 0 : 1 : true
+    set Move = 0, 1
+  end
+  set Prescribed displacement = 3: 0, -0.1
+end
+""")
+result = p.call("run", "apart.prm", "--output", "out")
+p.expect(result.returncode == 0
+         and "nothing keeps the 2 bodies from passing" in result.stderr,
+         f"no pair: {result.stdout}{result.stderr}")
+
 # Surfaces that cannot meet.
 p.expect_error(run("Body 2/Mesh/Move=0, 0.6", "Refinement/Level=0"),
                "Pair 1/Secondary", "ABUT-F24", "too far apart", "0.6", "reach")

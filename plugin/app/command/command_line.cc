@@ -294,7 +294,7 @@ Print the commands, explain one, or list the known failures by code.
                                + " 'abut --help' lists the commands.");
     result.command = command->second;
     result.words = words;
-    if (words.size() == 2 && (words[1] == "--help" || words[1] == "-h"))
+    if (words.size() >= 2 && (words.back() == "--help" || words.back() == "-h"))
     {
       result.command = Command::help;
       result.topic = words[0];
@@ -307,6 +307,9 @@ Print the commands, explain one, or list the known failures by code.
     {
       result.topic = words.size() > 1 ? words[1] : "";
       result.file = words.size() > 2 ? words[2] : "";
+      if (result.file.rfind('-', 0) == 0)
+        throw InputError("", "'new' has no option '" + result.file
+                                 + "': abut new KIND [FILE.prm].");
     }
     else if (result.command == Command::help && words.size() == 2)
       result.topic = words[1];

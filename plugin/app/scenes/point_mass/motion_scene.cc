@@ -288,12 +288,17 @@ namespace abut::app
             row.n > 1 ? "Masses/Spring" : "Masses/Wall spring";
         if (plane.penalty == 0.)
           throw InputError(
-              unit, std::string(time.scheme.name)
-                        + " has a spring instead of the plane, whose "
-                          "stiffness is Contact/Penalty factor times "
-                        + unit
-                        + ", which is 0: give it, or use Time stepping/Scheme "
-                          "= velocity level.");
+              unit,
+              std::string(time.scheme.name)
+                  + " has a spring instead of the plane, whose "
+                    "stiffness is Contact/Penalty factor times "
+                  + unit + ", which is 0"
+                  + (row.n > 1 ? ": give it"
+                               : ". Give it, so small that the spring does not "
+                                 "pull visibly at the mass (it joins mass and "
+                                 "wall) and with a Penalty factor as much "
+                                 "larger")
+                  + ", or use Time stepping/Scheme = velocity level.");
       }
     }
 

@@ -126,6 +126,8 @@ namespace abut::app
     private:
       void parse_model(ParameterHandler &prm);
       std::string closed_at_start() const;
+      /** Why there is no answer, and what to do. */
+      std::string why_not(abut_reason reason) const;
       void describe(Report &report) const;
       void fill_table(Report &report, const PointMassSolution &solution) const;
       void fill_summary(Report &report,
@@ -251,9 +253,9 @@ namespace abut::app
           [](const SceneValues &values)
           {
             return law_may_be(values, [](const abut_law &law)
-                              { return abut_law_is_interior(&law); });
+                              { return abut_law_needs_open_start(&law); });
           },
-          "it belongs to Method/Enforcement = barrier or interior point.")};
+          "it belongs to Method/Enforcement = barrier.")};
       for (const char *name : {"start", "factor", "end"})
         barrier.push_back(effective_if(
             std::string("Method/Barrier ") + name, Weight::setting,
@@ -299,6 +301,17 @@ namespace abut::app
                        + ". Give another Masses/Start, or use "
                          "Method/Enforcement = interior point, which needs "
                          "none.";
+    }
+
+    std::string PointMass::why_not(const abut_reason reason) const
+    {
+      const std::string closed = closed_at_start();
+      if (!closed.empty())
+        return closed;
+      return reason == ABUT_REASON_INFEASIBLE
+                 ? "a gap has become 0 by round-off: use a larger "
+                   "Method/Barrier parameter or Method/Barrier end."
+                 : abut_reason_text(reason);
     }
 
     void PointMass::check(const RunOptions &, Report &report)
@@ -409,6 +422,7 @@ namespace abut::app
     Outcome PointMass::run(const RunOptions &options, Report &report)
     {
       describe(report);
+      diagnose_penalty(report, method);
       const PointMassSolution solution = [&]
       {
         SectionTimes::Scope scope(report.times, "solve");
@@ -419,13 +433,10 @@ namespace abut::app
       if (solution.reason == ABUT_REASON_CONVERGED)
         diagnose_iteration(report, solution.progress);
       else
-      {
-        const std::string closed = closed_at_start();
         report.warn(
             coded(abut_reason_failure(solution.reason, method.options.law,
                                       &solution.progress),
-                  closed.empty() ? abut_reason_text(solution.reason) : closed));
-      }
+                  why_not(solution.reason)));
 
       SectionTimes::Scope scope(report.times, "output");
       if (Utilities::MPI::this_mpi_process(options.communicator) == 0

@@ -92,6 +92,11 @@ namespace abut::app
     coarse = BodyMeshes<dim>();
     for (const std::string &warning : bodies.warnings())
       run.report.warn(warning);
+    if (parameters.bodies.size() > 1 && parameters.pairs.empty())
+      run.report.warn("Solid/Pairs is 0: nothing keeps the "
+                      + std::to_string(parameters.bodies.size())
+                      + " bodies from passing through each other. Give a pair "
+                        "of surfaces where bodies can touch.");
     for (const std::vector<bool> &marked : bisections)
       bodies.refine(marked, this->triangulation);
     if (run.options.output_folder.empty())
