@@ -99,7 +99,12 @@ namespace abut::shim
     PairPoints<dim> then(set_);
     then.start(core.get(), u);
     then.update_view();
-    PairDetection<dim>(then, false).find(set_.motions(u));
+    // Bodies are where they were then, whatever supports prescribe by now.
+    std::vector<double> motions = set_.motions(u);
+    for (std::size_t p = 0; p < motions.size(); ++p)
+      if (has_partners(set_.pairs()[p]) && !set_.pairs()[p].data.obstacle)
+        motions[p] = 0.;
+    PairDetection<dim>(then, false).find(motions);
     // Components are known by their place among those that stay.
     std::vector<std::uint8_t> components(then.view().n_components, 1);
     drop_needless(then, components);
