@@ -96,7 +96,9 @@ extern "C"
   X(PARTNERS, 47, "loaded points lose their facets or jump to others",         \
     "mortar; rounded ends; smaller load steps")                                \
   X(FEW_POINTS, 48, "few points in contact",                                   \
-    "a finer mesh where the surfaces touch")
+    "a finer mesh where the surfaces touch")                                   \
+  X(NARROW_LOAD, 49, "loads that change within facets",                        \
+    "facets that end where the load does; a finer mesh there")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

@@ -23,8 +23,8 @@ def pair(secondary, primary):
     return section("Pair 1", f"Secondary = {secondary}", f"Primary = {primary}")
 
 
-def solid(dimension, *parts, bodies=2, obstacles=0):
-    """The whole scene: one pair and parts, each a section."""
+def solid(dimension, *parts, bodies=2, obstacles=0, pairs=1):
+    """The whole scene: its parts, each a section."""
     return (f"set Scene = solid\nset Dimension = {dimension}\n"
             + section("Solid", f"Bodies = {bodies}", f"Obstacles = {obstacles}",
-                      "Pairs = 1") + "".join(parts))
+                      f"Pairs = {pairs}") + "".join(parts))

@@ -60,26 +60,9 @@ p.expect_error(run("Solid/Pairs=0"), "Pair 1/Primary",
                "Solid/Pairs is 0: set it to 1")
 
 # Two blocks without a pair.
-p.write("apart.prm", """set Scene = solid
-subsection Solid
-  set Bodies = 2
-end
-subsection Body 1
-  subsection Mesh
-    set Generator = hyper_cube
-    set Arguments = 0 : 1 : true
-  end
-  set Prescribed displacement = 2: 0, 0
-end
-subsection Body 2
-  subsection Mesh
-    set Generator = hyper_cube
-    set Arguments = 0 : 1 : true
-    set Move = 0, 1
-  end
-  set Prescribed displacement = 3: 0, -0.1
-end
-""")
+p.write("apart.prm", solid(
+    2, block(1, "1, 1 : 0, 0 : 1, 1 : true", "2: 0, 0"),
+    block(2, "1, 1 : 0, 1 : 1, 2 : true", "3: 0, -0.1"), pairs=0))
 result = p.call("run", "apart.prm", "--output", "out")
 p.expect(result.returncode == 0
          and "nothing keeps the 2 bodies from passing" in result.stderr,

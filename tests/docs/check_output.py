@@ -32,7 +32,7 @@ RUNS = [
     ("finite-compression",),
     ("hertz-impact", "Refinement/Level=1", "Time stepping/End time=1"),
     ("falling-ball", "Time stepping/End time=0.01", "Time stepping/Step size=0.001"),
-    ("failures/locking-rubber",),
+    ("failures/locking-rubber",), ("failures/narrow-load",),
     ("point-mass",), ("method-of-multipliers",), ("failures/cycling",),
     ("friction-bar",),
     ("dynamics-bouncing-ball",), ("dynamics-bar-on-a-wall",), ("search-flat",),

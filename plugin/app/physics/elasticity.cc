@@ -6,7 +6,7 @@
 #include "app/input/short_number.h"
 #include "cell_sum.h"
 #include "nodal_places.h"
-#include "shim/cell_quadrature.h"
+#include "shim/values_by_element.h"
 #include "stiffness_cache.h"
 
 #include <abut/dealii/distribute.h>
@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace abut::app
 {
@@ -81,6 +82,88 @@ namespace abut::app
               }
           action(cell, points, state, dofs);
         }
+    }
+
+    /** Call @p action(cell, values, forces) for the loaded boundary faces of
+     * this rank, with the part of the force at each point of a rule. */
+    template <int dim, typename Rule, typename Action>
+    void for_each_loaded_face(const DiscreteProblem<dim> &problem,
+                              const ElasticData<dim> &data, const Rule &rule,
+                              const Action &action)
+    {
+      const auto values_of =
+          shim::face_values(problem.mapping, problem.dof_handler, rule,
+                            dealii::update_values | dealii::update_JxW_values
+                                | dealii::update_normal_vectors
+                                | dealii::update_quadrature_points,
+                            shim::ValuesOf::component);
+      std::vector<dealii::Tensor<1, dim>> forces;
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+          {
+            const auto face = cell->face(f);
+            if (!face->at_boundary())
+              continue;
+            const auto traction = data.tractions.find(face->boundary_id());
+            const auto pressure = data.pressures.find(face->boundary_id());
+            if (traction == data.tractions.end()
+                && pressure == data.pressures.end())
+              continue;
+            dealii::FEFaceValues<dim> &values = values_of.of(cell);
+            values.reinit(
+                static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                    cell),
+                f);
+            const auto &points = values.get_quadrature_points();
+            std::vector<std::vector<double>> t;
+            std::vector<double> p;
+            if (traction != data.tractions.end())
+              t = evaluate_all(*traction->second.function, points);
+            if (pressure != data.pressures.end())
+              p = pressure->second.function->evaluate(points);
+            const Material<dim> &material =
+                *data.materials.at(cell->material_id());
+            forces.resize(points.size());
+            for (unsigned int q = 0; q < points.size(); ++q)
+            {
+              for (unsigned int c = 0; c < dim; ++c)
+                forces[q][c] =
+                    (t.empty() ? 0. : t[c][q])
+                    - (p.empty() ? 0. : p[q] * values.normal_vector(q)[c]);
+              forces[q] *= values.JxW(q) * material.measure(points[q]);
+            }
+            action(cell, values, forces);
+          }
+    }
+
+    template <int dim> bool is_uniform(const Expression<dim> &function)
+    {
+      for (unsigned int c = 0; c < function.n_components; ++c)
+        if (!function.is_constant(c))
+          return false;
+      return true;
+    }
+
+    /** Centres of 64 equal parts of an edge, of 256 of a face. */
+    template <int dim>
+    dealii::Quadrature<dim - 1>
+    many_points(const dealii::FiniteElement<dim> &fe)
+    {
+      const unsigned int n = dim == 2 ? 64 : 16;
+      if (dim == 2 || !shim::is_simplex(fe))
+        return dealii::QIterated<dim - 1>(dealii::QMidpoint<1>(), n);
+      std::vector<dealii::Point<dim - 1>> points;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; i + j < n; ++j)
+          for (const double shift : {1. / 3., 2. / 3.})
+            if (shift < 0.5 || i + j + 1 < n)
+            {
+              points.emplace_back();
+              points.back()[0] = (i + shift) / n;
+              points.back()[dim - 2] = (j + shift) / n;
+            }
+      return {points, std::vector<double>(points.size(), 0.5 / points.size())};
     }
 
     template <int dim>
@@ -290,57 +373,67 @@ namespace abut::app
                                             la::Vector &load,
                                             la::Vector &all) const
   {
-    const auto values_of = shim::face_values(
-        this->mapping, this->dof_handler, shim::face_mass_rule<dim>,
-        dealii::update_values | dealii::update_JxW_values
-            | dealii::update_normal_vectors | dealii::update_quadrature_points,
-        shim::ValuesOf::component);
     const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
     dealii::Vector<double> force;
     std::vector<global_dof_index> dofs;
-    for (const auto &cell : this->dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int f : cell->face_indices())
+    for_each_loaded_face(
+        *this, data, shim::face_mass_rule<dim>,
+        [&](const auto &cell, const dealii::FEFaceValues<dim> &values,
+            const std::vector<dealii::Tensor<1, dim>> &forces)
         {
-          const auto face = cell->face(f);
-          if (!face->at_boundary())
-            continue;
-          const auto traction = data.tractions.find(face->boundary_id());
-          const auto pressure = data.pressures.find(face->boundary_id());
-          if (traction == data.tractions.end()
-              && pressure == data.pressures.end())
-            continue;
-          dealii::FEFaceValues<dim> &values = values_of.of(cell);
           const NodalPlaces<dim> &places = places_of.of(cell);
-          values.reinit(
-              static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
-                  cell),
-              f);
-          const auto &points = values.get_quadrature_points();
-          std::vector<std::vector<double>> t;
-          std::vector<double> p;
-          if (traction != data.tractions.end())
-            t = evaluate_all(*traction->second.function, points);
-          if (pressure != data.pressures.end())
-            p = pressure->second.function->evaluate(points);
-          const Material<dim> &material =
-              *data.materials.at(cell->material_id());
           shim::get_dofs(cell, dofs);
           force.reinit(dofs.size());
-          for (unsigned int q = 0; q < points.size(); ++q)
+          for (unsigned int q = 0; q < forces.size(); ++q)
             for (unsigned int c = 0; c < dim; ++c)
-            {
-              const double stress =
-                  (t.empty() ? 0. : t[c][q])
-                  - (p.empty() ? 0. : p[q] * values.normal_vector(q)[c]);
-              const double dx = values.JxW(q) * material.measure(points[q]);
               for (unsigned int i = 0; i < places.n_nodes(); ++i)
-                force(places(c, i)) += stress * dx * values.shape_value(i, q);
-            }
+                force(places(c, i)) += forces[q][c] * values.shape_value(i, q);
           versions::distribute_local_to_global(this->constraints, force, dofs,
                                                load);
           versions::distribute_local_to_global(this->hanging, force, dofs, all);
-        }
+        });
+  }
+
+  template <int dim>
+  std::optional<double>
+  Elasticity<dim>::load_error(const ElasticData<dim> &data) const
+  {
+    const auto varies = [](const auto &conditions)
+    {
+      return std::any_of(conditions.begin(), conditions.end(),
+                         [](const auto &condition)
+                         { return !is_uniform(*condition.second.function); });
+    };
+    if (!varies(data.tractions) && !varies(data.pressures))
+      return {};
+    double wrong = 0., whole = 0.;
+    const auto compare = [&]
+    {
+      std::vector<dealii::Tensor<1, dim>> applied;
+      for_each_loaded_face(*this, data, shim::face_mass_rule<dim>,
+                           [&](const auto &, const auto &, const auto &forces)
+                           {
+                             applied.push_back(
+                                 std::accumulate(forces.begin(), forces.end(),
+                                                 dealii::Tensor<1, dim>()));
+                           });
+      std::size_t face = 0;
+      for_each_loaded_face(*this, data, many_points<dim>,
+                           [&](const auto &, const auto &, const auto &forces)
+                           {
+                             dealii::Tensor<1, dim> given;
+                             for (const dealii::Tensor<1, dim> &force : forces)
+                             {
+                               given += force;
+                               whole += force.norm();
+                             }
+                             wrong += (applied[face++] - given).norm();
+                           });
+    };
+    collective(this->communicator, compare);
+    wrong = dealii::Utilities::MPI::sum(wrong, this->communicator);
+    whole = dealii::Utilities::MPI::sum(whole, this->communicator);
+    return whole > 0. ? wrong / whole : 0.;
   }
 
   template <int dim>

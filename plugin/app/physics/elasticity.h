@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,12 @@ namespace abut::app
     /** Compute the load of the present time, with what prescribed
      * displacements add. Collective. */
     void assemble_load(const ElasticData<dim> &data);
+
+    /** Difference between the forces of the formulas of tractions and pressures
+     * on each facet and those that its points add to the load, summed, over the
+     * sum of the former; none of constant formulas. Cost: 64 evaluations on
+     * an edge, 256 on a face. Collective. */
+    std::optional<double> load_error(const ElasticData<dim> &data) const;
 
     /** Internal minus external forces of a displacement (owned) at all
      * unknowns but hanging ones, supported ones included: what supports and

@@ -32,7 +32,10 @@ namespace abut::app
          "look at the sign of the residual"},
         {ABUT_FAILURE_SINGULAR, "Refinement/Adaptive cycles; smooth data"},
         {ABUT_FAILURE_FEW_POINTS,
-         "Refinement/Adaptive cycles, or a larger Refinement/Level"}};
+         "Refinement/Adaptive cycles, or a larger Refinement/Level"},
+        {ABUT_FAILURE_NARROW_LOAD,
+         "a mesh whose facets end where the load does, or a larger "
+         "Refinement/Level"}};
     const auto entry = parameters.find(failure.failure);
     return entry != parameters.end() ? entry->second : failure.remedy;
   }

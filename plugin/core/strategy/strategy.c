@@ -26,8 +26,9 @@ abut_reason_text(abut_reason reason)
     return "the iteration does not converge: use a larger or adaptive penalty, "
            "or a smaller linear tolerance";
   case ABUT_REASON_INFEASIBLE:
-    return "the barrier needs a start with all gaps open: move the bodies "
-           "apart, or use 'interior point', which needs none";
+    return "the barrier needs open gaps and has one that is closed, at the "
+           "start or by round-off: move the bodies apart, use a larger end of "
+           "the barrier, or 'interior point', which needs no open gaps";
   case ABUT_REASON_NOT_FINITE:
     return "a gap or an increment is not finite: check for data that are not "
            "finite and for a singular linear system";

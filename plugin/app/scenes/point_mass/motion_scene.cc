@@ -292,13 +292,9 @@ namespace abut::app
               std::string(time.scheme.name)
                   + " has a spring instead of the plane, whose "
                     "stiffness is Contact/Penalty factor times "
-                  + unit + ", which is 0"
-                  + (row.n > 1 ? ": give it"
-                               : ". Give it, so small that the spring does not "
-                                 "pull visibly at the mass (it joins mass and "
-                                 "wall) and with a Penalty factor as much "
-                                 "larger")
-                  + ", or use Time stepping/Scheme = velocity level.");
+                  + unit
+                  + ", which is 0: give it, or use Time stepping/Scheme = "
+                    "velocity level, which has a plane.");
       }
     }
 

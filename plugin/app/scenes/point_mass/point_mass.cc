@@ -126,8 +126,6 @@ namespace abut::app
     private:
       void parse_model(ParameterHandler &prm);
       std::string closed_at_start() const;
-      /** Why there is no answer, and what to do. */
-      std::string why_not(abut_reason reason) const;
       void describe(Report &report) const;
       void fill_table(Report &report, const PointMassSolution &solution) const;
       void fill_summary(Report &report,
@@ -303,17 +301,6 @@ namespace abut::app
                          "none.";
     }
 
-    std::string PointMass::why_not(const abut_reason reason) const
-    {
-      const std::string closed = closed_at_start();
-      if (!closed.empty())
-        return closed;
-      return reason == ABUT_REASON_INFEASIBLE
-                 ? "a gap has become 0 by round-off: use a larger "
-                   "Method/Barrier parameter or Method/Barrier end."
-                 : abut_reason_text(reason);
-    }
-
     void PointMass::check(const RunOptions &, Report &report)
     {
       const std::string closed = closed_at_start();
@@ -433,10 +420,13 @@ namespace abut::app
       if (solution.reason == ABUT_REASON_CONVERGED)
         diagnose_iteration(report, solution.progress);
       else
+      {
+        const std::string closed = closed_at_start();
         report.warn(
             coded(abut_reason_failure(solution.reason, method.options.law,
                                       &solution.progress),
-                  why_not(solution.reason)));
+                  closed.empty() ? abut_reason_text(solution.reason) : closed));
+      }
 
       SectionTimes::Scope scope(report.times, "output");
       if (Utilities::MPI::this_mpi_process(options.communicator) == 0

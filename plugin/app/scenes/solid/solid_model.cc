@@ -71,6 +71,11 @@ namespace abut::app
   {
     functions = std::make_unique<SolidFunctions<dim>>(parameters);
     pairs = std::make_unique<SolidPairs<dim>>(parameters, run.options);
+    if (parameters.bodies.size() > 1 && parameters.pairs.empty())
+      run.report.warn("Solid/Pairs is 0: nothing keeps the "
+                      + std::to_string(parameters.bodies.size())
+                      + " bodies from passing through each other. Give a pair "
+                        "of surfaces where bodies can touch.");
     driven.create_functions();
     const abut_time_scheme &scheme = parameters.time.scheme;
     if (motion && scheme.projects != 0 && scheme.contact_in_step != 0
@@ -92,11 +97,6 @@ namespace abut::app
     coarse = BodyMeshes<dim>();
     for (const std::string &warning : bodies.warnings())
       run.report.warn(warning);
-    if (parameters.bodies.size() > 1 && parameters.pairs.empty())
-      run.report.warn("Solid/Pairs is 0: nothing keeps the "
-                      + std::to_string(parameters.bodies.size())
-                      + " bodies from passing through each other. Give a pair "
-                        "of surfaces where bodies can touch.");
     for (const std::vector<bool> &marked : bisections)
       bodies.refine(marked, this->triangulation);
     if (run.options.output_folder.empty())

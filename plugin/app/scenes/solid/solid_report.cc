@@ -51,6 +51,9 @@ namespace abut::app
     /** Part of the energy that linear triangles and tetrahedra may lack. */
     constexpr double visible_stiffness = 0.05;
 
+    /** Part of the loads that facets may miss. */
+    constexpr double visible_load_error = 0.02;
+
     /** Least and largest value on any rank. Collective. */
     std::vector<double> range_over_ranks(const double value,
                                          const MPI_Comm communicator)
@@ -138,6 +141,26 @@ namespace abut::app
       report.print("  obstacle " + std::to_string(o + 1) + ": loads" + at + ": "
                    + in_words(loads, false));
     }
+    report_load_error();
+  }
+
+  template <int dim> void SolidReport<dim>::report_load_error() const
+  {
+    const std::optional<double> error = elasticity.load_error(model.data);
+    if (!error)
+      return;
+    report.set("load_error", *error);
+    report.examined("load_error", *error, visible_load_error, no_limit,
+                    ABUT_FAILURE_NARROW_LOAD);
+    if (*error > visible_load_error)
+      report.warn(coded(
+          ABUT_FAILURE_NARROW_LOAD,
+          "Loads change within facets: " + short_number(100. * *error, 2)
+              + " % of the force of tractions and pressures is missing or "
+                "too much, because the formulas are taken at few points of a "
+                "facet. Let facets end where the load does, or refine there: "
+                "a larger Refinement/Level.",
+          {{"part of the force", *error}, {"limit", visible_load_error}}));
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
@@ -648,6 +671,7 @@ namespace abut::app
       diagnose_order(report, energies);
     diagnose_condition(report, condition, penalty);
     report_locking();
+    report_load_error();
   }
 
   template <int dim> void SolidReport<dim>::report_locking() const
