@@ -208,4 +208,49 @@ first = [row for row in rows if row["time"] < 0.49]
 p.expect(all(row["active"] == 0 for row in first), "open at first")
 p.close(gap["contact_force"] / (0.5 * one["contact_force"]), 1., 1e-3,
         "half of the way is free")
+
+
+def bent(elements, height, load, *body, run_settings=()):
+    """Tip of a cantilever of length 50 and thickness 1 without lateral
+    contraction by theory of beams, E = 1000, and what the run has."""
+    dim = len(elements.split(","))
+    corner = ", ".join(["0"] * dim) + " : 50, " + ", ".join(height)
+    p.write("beam.prm", solid(
+        dim, section("Body 1", section("Mesh", "Generator = subdivided_hyper_rectangle",
+                                       f"Arguments = {elements} : {corner} : true"),
+                     "Support = 0: " + ", ".join(["0"] * dim), "Young modulus = 1000",
+                     "Poisson ratio = 0", f"Traction = 1: {load}", *body),
+        section("Refinement", "Level = 0"),
+        section("Output", "Fields = false", "Points = 1: 50, " + ", ".join(height)),
+        bodies=1, pairs=0))
+    result = p.call("run", "beam.prm", "--output", "out", "--quiet",
+                    *set_words(run_settings))
+    p.expect(result.returncode == 0, f"beam: {result.stderr}")
+    return p.summary(), result.stderr
+
+
+# Bilinear elements of length l in bending: too stiff by G l^2 / (E h^2).
+for elements, height, load, length in (
+        ("10, 1", ["1"], "0, -1e-4", 5.), ("50, 1", ["1"], "0, -1e-4", 1.),
+        ("50, 3", ["1"], "0, -1e-4", 1.), ("20, 1, 2", ["2", "1"], "0, 0, -1e-4", 2.5)):
+    lacking = 0.5 * length**2 / (0.5 * length**2 + 1.)
+    summary, words = bent(elements, height, load)
+    p.close(summary["locked_energy"], lacking, 5e-3, f"{elements}: locked")
+    p.close(summary["point_1"][-1], -0.05 * (1. - lacking), 1e-3,
+            f"{elements}: tip")
+    p.expect("ABUT-F16" in words and "spurious shear" in words, f"{elements}: {words}")
+# Short elements, quadratic ones; and torsion and tension, which need no bent edges.
+for elements, height, load, settings in (
+        ("250, 5", ["1"], "0, -1e-4", ()),
+        ("10, 1", ["1"], "0, -1e-4", ("Solid/Degree=2",)),
+        ("50, 4, 2", ["2", "1"], "0, 1e-3*(z-0.5), -1e-3*(y-1)", ()),
+        ("10, 1", ["1"], "1, 0", ())):
+    _, words = bent(elements, height, load, run_settings=settings)
+    p.expect("ABUT-F16" not in words, f"{elements} {load}: {words}")
+# Rotations are no shear.
+large, _ = bent("50, 1", ["1"], "0, -8e-3*t", "Material = neo-hooke",
+                run_settings=("Time stepping/Number of steps=4",))
+p.expect(large["point_1"][1] < -2., f"bent far: {large['point_1']}")
+p.close(large["locked_energy"], 1. / 3., 0.02, "bent far: locked")
+
 p.finish()

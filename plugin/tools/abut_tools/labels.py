@@ -111,6 +111,8 @@ LABELS = {
     "largest_strain": ("largest strain", "", ""),
     "mean_strain": ("mean strain of a body", "", ""),
     "condition": ("condition number of the preconditioned matrix", "", ""),
+    "shear_locking": ("strain energy of shear in elements that cannot bend",
+                      "", ""),
     "volumetric_locking": ("strain energy of volume change within cells", "",
                            ""),
     "linear_stiffness_error": ("strain energy that linear simplices lack", "",

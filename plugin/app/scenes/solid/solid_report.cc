@@ -7,7 +7,7 @@
 #include "app/physics/components.h"
 #include "app/physics/linear_stiffness.h"
 #include "app/physics/load_resultants.h"
-#include "app/physics/volumetric_locking.h"
+#include "app/physics/locking.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
@@ -48,7 +48,7 @@ namespace abut::app
      * strain energy that is worth a word. */
     constexpr double least_locking_ratio = 0.45, visible_locking = 0.1;
 
-    /** Part of the energy that linear triangles and tetrahedra may lack. */
+    /** Part of the energy that linear elements may add by being too stiff. */
     constexpr double visible_stiffness = 0.05;
 
     /** Part of the loads that facets may miss. */
@@ -681,38 +681,52 @@ namespace abut::app
       locked = report_linear_simplices();
     if (elasticity.elements.size() > 1
         || !shim::is_simplex(elasticity.elements[0]))
-      locked = std::max(locked, report_volumetric_locking());
+      locked = std::max(locked, report_cell_locking());
     if (locked >= 0.)
       report.set("locked_energy", locked);
   }
 
-  template <int dim> double SolidReport<dim>::report_volumetric_locking() const
+  template <int dim> double SolidReport<dim>::report_cell_locking() const
   {
+    if (parameters.degree > 1)
+      return -1.;
     double poisson_ratio = 0.;
     for (const auto &material : model.data.materials)
       if (material.second->cell_volume() == nullptr)
         poisson_ratio =
             std::max(poisson_ratio, material.second->poisson_ratio());
-    if (parameters.degree > 1 || parameters.plane == PlaneModel::stress
-        || poisson_ratio < least_locking_ratio)
-      return -1.;
-    const double locked =
-        volumetric_locking(elasticity.mapping, elasticity.dof_handler,
-                           elasticity.ghosted(u), model.data.materials);
-    report.examined("volumetric_locking", locked, visible_locking, no_limit,
+    const Locking found = locking(elasticity.mapping, elasticity.dof_handler,
+                                  elasticity.ghosted(u), model.data.materials,
+                                  parameters.has_large_strain());
+    report.examined("shear_locking", found.shear, visible_stiffness, no_limit,
                     ABUT_FAILURE_LOCKING);
-    if (locked > visible_locking)
-      report.warn(
-          coded(ABUT_FAILURE_LOCKING,
-                short_number(100. * locked, 2)
-                    + " % of the strain energy is spurious volume "
-                      "change of linear elements: with Poisson ratio "
-                    + short_number(poisson_ratio, 6)
-                    + " they lock; displacements are too small and "
-                      "contact forces too large. Set Body N/Element = "
-                      "mean dilatation, or Solid/Degree = 2.",
-                {{"part of the energy", locked}, {"limit", visible_locking}}));
-    return locked;
+    if (found.shear > visible_stiffness)
+      report.warn(coded(
+          ABUT_FAILURE_LOCKING,
+          short_number(100. * found.shear, 2)
+              + " % of the strain energy is spurious shear of linear "
+                "elements, which cannot bend: displacements under loads "
+                "are too small by about this part, or forces at "
+                "prescribed displacements too large. Set Solid/Degree = "
+                "2, or give what bends more cells across its thickness.",
+          {{"part of the energy", found.shear}, {"limit", visible_stiffness}}));
+    if (parameters.plane == PlaneModel::stress
+        || poisson_ratio < least_locking_ratio)
+      return found.shear;
+    report.examined("volumetric_locking", found.volumetric, visible_locking,
+                    no_limit, ABUT_FAILURE_LOCKING);
+    if (found.volumetric > visible_locking)
+      report.warn(coded(ABUT_FAILURE_LOCKING,
+                        short_number(100. * found.volumetric, 2)
+                            + " % of the strain energy is spurious volume "
+                              "change of linear elements: with Poisson ratio "
+                            + short_number(poisson_ratio, 6)
+                            + " they lock; displacements are too small and "
+                              "contact forces too large. Set Body N/Element = "
+                              "mean dilatation, or Solid/Degree = 2.",
+                        {{"part of the energy", found.volumetric},
+                         {"limit", visible_locking}}));
+    return std::max(found.volumetric, found.shear);
   }
 
   template <int dim> double SolidReport<dim>::report_linear_simplices() const

@@ -43,7 +43,7 @@ namespace abut::app
     void report_numerics() const;
     void report_locking() const;
     /** Part of the energy that elements take away, -1: not known. */
-    double report_volumetric_locking() const;
+    double report_cell_locking() const;
     double report_linear_simplices() const;
     /** Returns the largest imbalance of forces and of moments of a pair. */
     std::pair<double, double> report_pairs() const;
