@@ -98,7 +98,9 @@ extern "C"
   X(FEW_POINTS, 48, "few points in contact",                                   \
     "a finer mesh where the surfaces touch")                                   \
   X(NARROW_LOAD, 49, "loads that change within facets",                        \
-    "facets that end where the load does; a finer mesh there")
+    "facets that end where the load does; a finer mesh there")                 \
+  X(UNSTABLE, 52, "an equilibrium that is unstable",                           \
+    "a small disturbance, or the motion")
 
   /** Codes of failures: ABUT_FAILURE_PENALTY is `ABUT-F06`. */
   typedef enum abut_failure

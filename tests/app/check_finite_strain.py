@@ -280,4 +280,17 @@ p.expect_error(run(both, "Body 1/Material=neo-hooke"), "Body 2/Material",
 p.expect_error(run(both, "Body 1/Material=rubber"), "Body 1/Material",
                "neo-hooke")
 
+# A column between a clamp and a plate is stable up to Euler's load of a top that
+# stays flat, pi^2 E I / (L^2 (1 - nu^2)) = 2.26, which it has at 0.041.
+EULER = math.pi**2 * 1000 / 12 / 20**2 / (1 - 0.3**2)
+for way, unstable, ranks in ((0.040, False, 0), (0.042, True, 0), (0.042, True, 2)):
+    result = p.call("run", p.source / "prm/failures/buckling.prm", "--quiet",
+                    "--output", "out", *set_words({
+                        "Obstacle 1/Motion": f"0, -{way}*t",
+                        "Time stepping/Number of steps": 1}), ranks=ranks)
+    force = p.summary()["contact_force"]
+    p.expect((force > EULER) == unstable and abs(force / EULER - 1.) < 0.03,
+             f"column pressed by {way}: {force}")
+    p.expect(("ABUT-F52" in result.stderr) == unstable, f"{way}: {result.stderr}")
+
 p.finish()

@@ -35,7 +35,9 @@ namespace abut::app
          "Refinement/Adaptive cycles, or a larger Refinement/Level"},
         {ABUT_FAILURE_NARROW_LOAD,
          "a mesh whose facets end where the load does, or a larger "
-         "Refinement/Level"}};
+         "Refinement/Level"},
+        {ABUT_FAILURE_UNSTABLE,
+         "a small Body N/Body force across, or Time stepping/Scheme = hht"}};
     const auto entry = parameters.find(failure.failure);
     return entry != parameters.end() ? entry->second : failure.remedy;
   }

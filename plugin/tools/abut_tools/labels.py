@@ -111,6 +111,8 @@ LABELS = {
     "largest_strain": ("largest strain", "", ""),
     "mean_strain": ("mean strain of a body", "", ""),
     "condition": ("condition number of the preconditioned matrix", "", ""),
+    "negative_curvature": ("curvature of the energy, negative where unstable",
+                           "", ""),
     "shear_locking": ("strain energy of shear in elements that cannot bend",
                       "", ""),
     "volumetric_locking": ("strain energy of volume change within cells", "",

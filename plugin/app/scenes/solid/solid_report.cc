@@ -8,6 +8,8 @@
 #include "app/physics/linear_stiffness.h"
 #include "app/physics/load_resultants.h"
 #include "app/physics/locking.h"
+#include "app/physics/negative_curvature.h"
+#include "app/physics/nodal_places.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
 #include "app/scenes/modelled.h"
@@ -672,6 +674,69 @@ namespace abut::app
     diagnose_condition(report, condition, penalty);
     report_locking();
     report_load_error();
+    if (model.has_large_strain() && !model.motion)
+      report_stability();
+  }
+
+  /* Of all directions but those that contact may resist. */
+  template <int dim> void SolidReport<dim>::report_stability() const
+  {
+    la::Vector forces = elasticity.vector();
+    if (!pairs.empty())
+      contact.results().add_forces(forces, ForcePart::of_pressures);
+    const double pressed = round_off_of_pressures * forces.linfty_norm();
+    const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
+    std::vector<std::uint8_t> at_rest(owned.n_elements());
+    for (std::size_t i = 0; i < at_rest.size(); ++i)
+      at_rest[i] =
+          elasticity.constraints.is_constrained(owned.nth_index_in_set(i))
+          || std::abs(la::data(forces)[i]) > pressed;
+    if (pairs.has_friction())
+      hold_whole_nodes(at_rest);
+    const double curvature = negative_curvature(elasticity.stiffness, at_rest);
+    report.set("negative_curvature", curvature);
+    report.examined("negative_curvature", -curvature, 0., no_limit,
+                    ABUT_FAILURE_UNSTABLE);
+    if (curvature < 0.)
+      report.warn(coded(
+          ABUT_FAILURE_UNSTABLE,
+          "The equilibrium is unstable: there are displacements along which "
+          "the "
+          "energy falls (curvature "
+              + short_number(curvature, 2)
+              + " of the diagonal's, limit 0). The bodies buckle under less "
+                "load. Disturb them, for instance by a small Body N/Body force "
+                "across, and compare; or compute the motion with Time "
+                "stepping/Scheme = hht.",
+          {{"curvature", curvature}, {"limit", 0.}}));
+  }
+
+  template <int dim>
+  void
+  SolidReport<dim>::hold_whole_nodes(std::vector<std::uint8_t> &at_rest) const
+  {
+    const dealii::IndexSet &owned = elasticity.dof_handler.locally_owned_dofs();
+    const shim::ByElement places_of(elasticity.dof_handler, nodal_places<dim>);
+    std::vector<dealii::types::global_dof_index> dofs;
+    for (const auto &cell : elasticity.dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      shim::get_dofs(cell, dofs);
+      const NodalPlaces<dim> &places = places_of.of(cell);
+      for (unsigned int node = 0; node < places.n_nodes(); ++node)
+      {
+        bool held = false;
+        for (const bool sets : {false, true})
+          for (unsigned int c = 0; c < dim; ++c)
+            if (const auto dof = dofs[places(c, node)]; owned.is_element(dof))
+            {
+              auto &entry = at_rest[owned.index_within_set(dof)];
+              held = held || entry;
+              entry = entry || (sets && held);
+            }
+      }
+    }
   }
 
   template <int dim> void SolidReport<dim>::report_locking() const

@@ -42,6 +42,8 @@ namespace abut::app
     void report_transfer() const;
     void report_numerics() const;
     void report_locking() const;
+    void report_stability() const;
+    void hold_whole_nodes(std::vector<std::uint8_t> &at_rest) const;
     /** Part of the energy that elements take away, -1: not known. */
     double report_cell_locking() const;
     double report_linear_simplices() const;
