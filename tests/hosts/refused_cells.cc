@@ -9,6 +9,7 @@
 #include <deal.II/base/function.h>
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_q_iso_q1.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_wedge_p.h>
@@ -78,7 +79,10 @@ namespace
 
     void reinit()
     {
-      contact.reinit(mapping, dofs, constraints);
+      if (dofs.get_fe().reference_cell() == ReferenceCells::get_hypercube<3>())
+        contact.reinit(bricks, dofs, constraints);
+      else
+        contact.reinit(mapping, dofs, constraints);
     }
 
     void detect(const MethodParameters &method)
@@ -102,6 +106,7 @@ namespace
     }
 
     const MappingFE<3> mapping{FE_SimplexP<3>(1)};
+    const MappingQ<3> bricks{1};
     Mesh mesh{MPI_COMM_WORLD, Triangulation<3>::none, true,
               Mesh::partition_zorder};
     DoFHandler<3> dofs;
@@ -182,6 +187,17 @@ namespace
         "FE_SimplexP of degree 1 or 2",
         [] {
           Cube(FESystem<3>(FE_SimplexDGP<3>(1), 3)).detect(MethodParameters());
+        });
+    // Their nodes are those of FE_Q, but not their shape functions.
+    refuses<ContactError>(
+        "made of FE_Q or FE_SimplexP of degree 1 or 2",
+        [] {
+          Cube(FESystem<3>(FE_Q_iso_Q1<3>(2), 3)).detect(MethodParameters());
+        });
+    refuses<ContactError>(
+        "not FESystem<3>[FE_Q_iso_Q1<3>(2)^3]",
+        [] {
+          Cube(FESystem<3>(FE_Q_iso_Q1<3>(2), 3)).detect(MethodParameters());
         });
     refuses<ObstacleError>(
         "have no positive weight",
