@@ -105,6 +105,60 @@ namespace abut::shim
                 "the same ids to both where a surface touches itself.");
     }
 
+    /** Vertices of those with these first unknowns around which cells do not
+     * hang together by faces: two bodies have the vertex, but no more than an
+     * edge, in common. Those at the end of a crack are none. */
+    template <int dim>
+    std::vector<global_dof_index>
+    hinges(const dealii::DoFHandler<dim> &dof_handler,
+           const std::map<global_dof_index, NodeIndex> &wanted)
+    {
+      using Cell = std::pair<int, int>; // level and index
+      const auto name = [](const auto &cell)
+      { return Cell(cell->level(), cell->index()); };
+      // By vertex, cells and those beyond their faces at it, and of each the
+      // number of its part.
+      std::map<global_dof_index, std::map<Cell, std::size_t>> parts;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          const global_dof_index dof =
+              cell->vertex_dof_index(v, 0, cell->active_fe_index());
+          if (wanted.count(dof) == 0)
+            continue;
+          std::map<Cell, std::size_t> &part = parts[dof];
+          const std::size_t mine =
+              part.emplace(name(cell), part.size()).first->second;
+          for (const unsigned int f : cell->face_indices())
+          {
+            const auto face = cell->face(f);
+            bool has_vertex = false;
+            for (const unsigned int w : face->vertex_indices())
+              has_vertex =
+                  has_vertex || face->vertex_index(w) == cell->vertex_index(v);
+            if (!has_vertex || cell->at_boundary(f))
+              continue;
+            const std::size_t other =
+                part.emplace(name(cell->neighbor(f)), part.size())
+                    .first->second;
+            for (auto &each : part)
+              if (each.second == other)
+                each.second = mine;
+          }
+        }
+      }
+      std::vector<global_dof_index> result;
+      for (const auto &[dof, part] : parts)
+        if (std::any_of(part.begin(), part.end(),
+                        [&](const auto &each)
+                        { return each.second != part.begin()->second; }))
+          result.push_back(dof);
+      return result;
+    }
+
     template <int dim>
     double thickness_of(const PairHost<dim> &host, const SurfacePair<dim> &pair,
                         const std::set<dealii::types::boundary_id> &ids,
@@ -145,6 +199,51 @@ namespace abut::shim
     for (const auto &pair : pairs)
       create_pair(pair);
     gather(nullptr, {});
+    for (SurfacePair<dim> &pair : pairs_)
+      check_hinges(pair);
+  }
+
+  template <int dim>
+  void PairSet<dim>::check_hinges(SurfacePair<dim> &pair) const
+  {
+    if (pair.data.obstacle || pair.data.tied
+        || SelfContact<dim>::is_split(pair.data))
+      return;
+    std::map<global_dof_index, NodeIndex> common;
+    for (const NodeIndex node : pair.secondary.node)
+      if (is_owned(node) && pair.primary.local_node(node) >= 0)
+        common.emplace(surface_.nodes[node].dof[0], node);
+    if (!MPI::logical_or(!common.empty(), host_.communicator))
+      return;
+    std::uint64_t n[] = {0, 0, 0};
+    for (const SurfaceSide<dim> *side : {&pair.secondary, &pair.primary})
+      for (const NodeIndex node : side->node)
+        n[side == &pair.primary] += is_owned(node);
+    std::pair<std::int64_t, dealii::Point<dim>> first(surface_.node_number_end,
+                                                      dealii::Point<dim>());
+    for (const global_dof_index dof : hinges(host_.dof_handler, common))
+    {
+      const auto &node = surface_.nodes[common.at(dof)];
+      first = std::min(first, std::make_pair(node.number, node.point),
+                       [](const auto &a, const auto &b)
+                       { return a.first < b.first; });
+      ++n[2];
+    }
+    MPI::sum(n, host_.communicator, n);
+    if (n[2] == 0)
+      return;
+    for (const auto &other : MPI::all_gather(host_.communicator, first))
+      if (other.first < first.first)
+        first = other;
+    std::ostringstream text;
+    text << n[2] << " of the " << n[0] << " nodes of the secondary surface and "
+         << n[1] << " of the primary are the same ones, the first at ("
+         << first.second
+         << "): the bodies have no cells' faces in common there, but they "
+            "cannot part or slide. Give each body vertices of its own, as "
+            "GridGenerator::merge_triangulations() does with a "
+            "duplicated_vertex_tolerance of 0.";
+    throw ContactError(about_pair(pair.data.name, text.str()));
   }
 
   template <int dim>

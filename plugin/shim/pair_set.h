@@ -201,6 +201,9 @@ namespace abut::shim
     void create_pair(const ContactPair<dim> &data);
     void create_sides(SurfacePair<dim> &pair);
     void find_thickness(SurfacePair<dim> &pair);
+    /** Throw where nodes of both sides hold their bodies together. Collective.
+     */
+    void check_hinges(SurfacePair<dim> &pair) const;
     /** [pairs] Collective. */
     std::vector<Motions>
     motions_since_gathering(const std::vector<Direction<dim>> &u) const;

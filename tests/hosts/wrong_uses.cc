@@ -35,7 +35,8 @@ namespace
     bottom = 1,
     lower = 2,
     upper = 3,
-    top = 4
+    top = 4,
+    left = 5
   };
 
   /** What a program does, right by default. */
@@ -44,12 +45,17 @@ namespace
     bool two_bodies = false;
     unsigned int n_refinements = 1;
     bool has_supports = true;
-    bool is_separate = false; ///< loads are assembled in calls of their own
-    double sign = 1.;         ///< R times this; 0: R of the start for ever
+    bool is_separate = false;   ///< loads are assembled in calls of their own
+    double sign = 1.;           ///< R times this; 0: R of the start for ever
+    bool is_cracked = false;    ///< one body, with a crack from its left side
+    bool is_uniaxial = false;   ///< the body below the other is as wide as it,
+                                ///< and nothing hinders them sideways
+    double same_vertex = 1e-12; ///< distance of vertices that are merged
   };
 
   /** The square of step-8, lambda = mu = 1, fixed below; or another one on it
-   * that is 1.2 wide, 0.01 apart and moved down by 0.05. */
+   * that is 1.2 wide, 0.01 apart and moved down by 0.05. Those of a uniaxial
+   * problem touch, and have cells of two sizes. */
   class Program
   {
   public:
@@ -62,10 +68,14 @@ namespace
       make_mesh();
       dof_handler.distribute_dofs(fe);
       dealii::DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+      const dealii::ComponentMask along(std::vector<bool>{true, false}),
+          across(std::vector<bool>{!use.is_uniaxial, true});
+      if (use.is_uniaxial)
+        prescribe(left, {}, along);
       if (use.has_supports)
-        prescribe(bottom, {});
-      if (use.two_bodies)
-        prescribe(top, Tensor<1, dim>({0., -0.05}));
+        prescribe(bottom, {}, across);
+      if (use.two_bodies || use.is_cracked)
+        prescribe(top, Tensor<1, dim>({0., -0.05}), across);
       constraints.close();
       dealii::DynamicSparsityPattern pattern(dof_handler.n_dofs());
       dealii::DoFTools::make_sparsity_pattern(dof_handler, pattern);
@@ -196,35 +206,63 @@ namespace
     void make_mesh()
     {
       dealii::Triangulation<dim> one, other, both;
-      dealii::GridGenerator::subdivided_hyper_rectangle(
-          one, {4, 4}, Point<dim>(-1., -1.), Point<dim>(1., 1.));
-      dealii::GridGenerator::subdivided_hyper_rectangle(
-          other, {3, 3}, Point<dim>(-0.6, 1.01), Point<dim>(0.6, 2.01));
+      if (use.is_cracked)
+        make_crack(one);
+      else
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+            one, {4, 4}, Point<dim>(-1., -1.), Point<dim>(1., 1.));
+      if (use.is_uniaxial)
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+            other, {2, 1}, Point<dim>(-1., 1.), Point<dim>(1., 2.));
+      else
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+            other, {3, 3}, Point<dim>(-0.6, 1.01), Point<dim>(0.6, 2.01));
       if (use.two_bodies)
-        dealii::GridGenerator::merge_triangulations(one, other, both);
+        dealii::GridGenerator::merge_triangulations(one, other, both,
+                                                    use.same_vertex);
       else
         both.copy_triangulation(one);
+      const double interface = use.is_cracked ? 0. : 1.;
       for (const auto &cell : both.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary())
           {
-            const double y = face->center()[1];
-            face->set_boundary_id(y < -0.99                   ? bottom
-                                  : std::abs(y - 1.) < 1e-9   ? lower
-                                  : std::abs(y - 1.01) < 1e-9 ? upper
-                                  : y > 2.                    ? top
-                                                              : 0);
+            const double x = face->center()[0], y = face->center()[1];
+            face->set_boundary_id(
+                y < -0.99                            ? bottom
+                : y > (use.is_cracked ? 0.99 : 1.99) ? top
+                : x < -0.99                          ? left
+                : std::abs(y - interface) < 1e-9 && cell->center()[1] < interface ? lower
+                : std::abs(y - interface) < 0.02 ? upper
+                                                 : 0);
           }
       mesh.copy_triangulation(both);
       mesh.refine_global(use.n_refinements);
     }
 
-    void prescribe(const Side side, const Tensor<1, dim> &value)
+    /** Four cells, two vertices at (-1, 0). */
+    static void make_crack(dealii::Triangulation<dim> &mesh)
+    {
+      std::vector<Point<dim>> vertices;
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+          vertices.emplace_back(x, y);
+      vertices.push_back(vertices[3]);
+      std::vector<dealii::CellData<dim>> cells(4);
+      const unsigned int corners[4][4] = {
+          {0, 1, 3, 4}, {1, 2, 4, 5}, {9, 4, 6, 7}, {4, 5, 7, 8}};
+      for (unsigned int c = 0; c < 4; ++c)
+        cells[c].vertices.assign(corners[c], corners[c] + 4);
+      mesh.create_triangulation(vertices, cells, dealii::SubCellData());
+    }
+
+    void prescribe(const Side side, const Tensor<1, dim> &value,
+                   const dealii::ComponentMask &mask)
     {
       dealii::VectorTools::interpolate_boundary_values(
           mapping, dof_handler, side,
-          dealii::Functions::ConstantFunction<dim>(&value[0], dim),
-          constraints);
+          dealii::Functions::ConstantFunction<dim>(&value[0], dim), constraints,
+          mask);
     }
 
     template <typename Function>
@@ -464,6 +502,42 @@ namespace
                  {"matrix given to solve()", "but a diagonal", "reinit()"});
   }
 
+  /** Bodies of which the meshes have vertices in common are not two bodies. */
+  void check_shared_vertices()
+  {
+    // Plane strain, lambda = mu = 1: E / (1 - nu^2) = 8/3; both are 2 wide.
+    const double stiffness = 8. / 3., width = 2.;
+    const auto expect_force = [&](Program &program, const double height)
+    {
+      const IterationReport report = program.solve(program.bodies());
+      const double force = program.force_on(bottom)[1];
+      const double expected = stiffness * width * 0.05 / height;
+      expect(report.reason == ABUT_REASON_CONVERGED
+                 && std::abs(force - expected) < 1e-9 * expected,
+             "a force of " + std::to_string(force) + ", not "
+                 + std::to_string(expected));
+    };
+    Use use;
+    use.two_bodies = use.is_uniaxial = true;
+    use.same_vertex = 0.;
+    Program separate(use);
+    expect_force(separate, 3.);
+    use.same_vertex = 1e-12;
+    Program merged(use);
+    ContactPair<dim> pair = merged.bodies();
+    expect_words(message_of([&] { merged.solve(pair); }),
+                 {"lower on upper", "3 of the 9 nodes", "5 of the primary",
+                  "merge_triangulations()", "duplicated_vertex_tolerance"});
+    std::swap(pair.secondary, pair.primary);
+    expect_words(message_of([&] { merged.solve(pair); }),
+                 {"3 of the 5 nodes", "9 of the primary"});
+    // The sides of a crack meet at its tip.
+    use.two_bodies = false;
+    use.is_cracked = true;
+    Program cracked(use);
+    expect_force(cracked, 2.);
+  }
+
   void check_history()
   {
     Use use;
@@ -541,6 +615,7 @@ main(int argc, char **argv)
   check_pressure();
   check_pairs();
   check_constraints();
+  check_shared_vertices();
   check_history();
   check_shapes();
   return hosts::good ? 0 : 1;
