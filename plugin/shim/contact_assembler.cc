@@ -358,7 +358,7 @@ namespace abut
         "solve()", tangent,
         !i.input.constant_matrix || i.system.has_new_matrix);
     const la::Vector &residual =
-        i.host.vector("solve()", "residual", given_residual);
+        i.host.residual("solve()", given_residual, !i.is_started);
     la::Vector &increment =
         i.host.mutable_vector("solve()", "increment", given_increment);
     i.prepare_solver(matrix);

@@ -4,6 +4,8 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <cmath>
+
 namespace abut::shim
 {
   using dealii::ExcMessage;
@@ -148,6 +150,52 @@ namespace abut::shim
   }
 
   template <int dim>
+  const la::Vector &ContactHost<dim>::residual(const std::string &call,
+                                               const la::VectorView &given,
+                                               const bool is_first) const
+  {
+    const double visible = 1e-10; // of the largest force
+    const la::Vector &result = vector(call, "residual", given);
+    const std::string name = "residual given to " + call;
+    const double *const values = la::data(result);
+    global_dof_index bad = dealii::numbers::invalid_dof_index;
+    double largest = 0.;
+    for (int k = la::n_owned(result) - 1; k >= 0; --k)
+    {
+      largest = std::max(largest, std::abs(values[k]));
+      if (!std::isfinite(values[k]))
+        bad = owned().nth_index_in_set(k);
+    }
+    refuse_row(bad, name, "a value that is not finite", communicator_);
+    if (is_first && given.native() != nullptr)
+    {
+      // Values for other ranks are copied, too, as long as they are not sent.
+      la::Vector sent(result);
+      sent.compress(dealii::VectorOperation::add);
+      sent -= result;
+      AssertThrow(sent.linfty_norm() == 0.,
+                  ExcMessage("The " + name
+                             + " has values for unknowns of other ranks that "
+                               "were not sent to them. Call its "
+                               "compress(VectorOperation::add) after "
+                               "assembly."));
+    }
+    largest = dealii::Utilities::MPI::max(largest, communicator_);
+    for (const auto &line : constraints_->get_lines())
+      if (owned().is_element(line.index)
+          && std::abs(values[owned().index_within_set(line.index)])
+                 > visible * largest)
+        bad = std::min(bad, line.index);
+    refuse_row(bad, name,
+               "a force, although the constraints given to reinit() eliminate "
+               "it (assemble with AffineConstraints::"
+               "distribute_local_to_global(), or call "
+               "AffineConstraints::set_zero()),",
+               communicator_);
+    return result;
+  }
+
+  template <int dim>
   void ContactHost<dim>::check_coupled(const la::Matrix &matrix,
                                        const std::string &name) const
   {
@@ -190,7 +238,9 @@ namespace abut::shim
     if (other == nullptr)
     {
       check_size(call, "matrix", tangent.matrix().m());
+      check_sent(tangent.matrix(), name, communicator_);
       check_values(tangent.matrix(), name, communicator_);
+      check_assembled(tangent.matrix(), *constraints_, name, communicator_);
       check_eliminated(tangent.matrix(), *constraints_, name, communicator_);
       check_coupled(tangent.matrix(), name);
       return tangent.matrix();
@@ -208,6 +258,7 @@ namespace abut::shim
                      "ranks like the unknowns. Serial types need one rank, or "
                      "a mesh and a ContactAssembler on MPI_COMM_SELF."));
     const la::Matrix &taken = copy.copy(*other, name, owned, communicator_);
+    check_assembled(taken, *constraints_, name, communicator_);
     check_eliminated(taken, *constraints_, name, communicator_);
     if (!is_block)
       check_coupled(taken, name);

@@ -82,6 +82,13 @@ namespace abut::shim
     /** A matrix of another type is copied, to the one of the present step.
      * Throws, on all ranks, if it is not one of the present unknowns.
      * Collective. */
+    /** The same of a residual. Throws, on all ranks, for values that are not
+     * finite, for forces on unknowns that constraints eliminate and, if it
+     * @p is_first of an iteration, for values that were not sent to their
+     * ranks. Collective. */
+    const la::Vector &residual(const std::string &call,
+                               const la::VectorView &given,
+                               bool is_first) const;
     solve::Stiffness stiffness(const std::string &call,
                                const Tangent &tangent) const
     {

@@ -13,16 +13,6 @@ namespace abut::shim
 
   namespace
   {
-    /** Throw, on all ranks, if one of them names a row; the first of them. */
-    void refuse_row(const Index row, const std::string &name,
-                    const std::string &what, const MPI_Comm communicator)
-    {
-      const Index first = dealii::Utilities::MPI::min(row, communicator);
-      AssertThrow(first == dealii::numbers::invalid_dof_index,
-                  dealii::ExcMessage("The " + name + " has " + what + " in row "
-                                     + std::to_string(first) + "."));
-    }
-
     void refuse_lacking(const Index row, const std::string &name,
                         const MPI_Comm communicator)
     {
@@ -49,6 +39,52 @@ namespace abut::shim
       return result;
     }
   } // namespace
+
+  void refuse_row(const Index row, const std::string &name,
+                  const std::string &what, const MPI_Comm communicator)
+  {
+    const Index first = dealii::Utilities::MPI::min(row, communicator);
+    AssertThrow(first == dealii::numbers::invalid_dof_index,
+                dealii::ExcMessage("The " + name + " has " + what + " in row "
+                                   + std::to_string(first) + "."));
+  }
+
+  void check_sent(const la::Matrix &matrix, const std::string &name,
+                  const MPI_Comm communicator)
+  {
+    AssertThrow(
+        !dealii::Utilities::MPI::logical_or(!matrix.is_compressed(),
+                                            communicator),
+        dealii::ExcMessage(
+            "The " + name
+            + " has entries in rows of other ranks that were not sent to them. "
+              "Call its compress(VectorOperation::add) after assembly."));
+  }
+
+  void check_assembled(const la::Matrix &matrix,
+                       const dealii::AffineConstraints<double> &constraints,
+                       const std::string &name, const MPI_Comm communicator)
+  {
+    const la::LocalRows rows = la::local_rows(matrix);
+    const dealii::IndexSet owned = la::owned_rows(matrix);
+    bool has_free = false, is_zero = true;
+    for (int r = 0; r < rows.n_rows && is_zero; ++r)
+    {
+      if (constraints.is_constrained(owned.nth_index_in_set(r)))
+        continue;
+      has_free = true;
+      is_zero = std::all_of(rows.value + rows.start[r],
+                            rows.value + rows.start[r + 1],
+                            [](const double value) { return value == 0.; });
+    }
+    const bool any_free =
+        dealii::Utilities::MPI::logical_or(has_free, communicator);
+    AssertThrow(
+        !any_free || dealii::Utilities::MPI::logical_or(!is_zero, communicator),
+        dealii::ExcMessage("The " + name
+                           + " is zero in all rows that the constraints do not "
+                             "eliminate. Assemble it before this call."));
+  }
 
   void check_values(const la::Matrix &matrix, const std::string &name,
                     const MPI_Comm communicator)

@@ -12,6 +12,27 @@
 
 namespace abut::shim
 {
+  /** Throw, on all ranks, if one of them names a row, invalid_dof_index: none;
+   * the first of them. Collective.
+   * @param name of what has the row, in messages
+   * @param what the row has, after which its number follows */
+  void refuse_row(dealii::types::global_dof_index row, const std::string &name,
+                  const std::string &what, MPI_Comm communicator);
+
+  /** Throw, on all ranks, if one has entries of rows of others that it has not
+   * sent. Collective.
+   * @param name of the matrix in messages */
+  void check_sent(const la::Matrix &matrix, const std::string &name,
+                  MPI_Comm communicator);
+
+  /** Throw, on all ranks, if all rows that @p constraints do not have are zero:
+   * nothing was assembled. Ends at the first value that is not zero.
+   * Collective.
+   * @param name of the matrix in messages */
+  void check_assembled(const la::Matrix &matrix,
+                       const dealii::AffineConstraints<double> &constraints,
+                       const std::string &name, MPI_Comm communicator);
+
   /** Throw, on all ranks, if a value of @p matrix is not finite, naming the
    * first row with one, and if a diagonal entry is missing. One pass over the
    * entries. Collective.

@@ -267,8 +267,10 @@ namespace abut::shim
     if (!reason.empty())
       refuse(pair, reason);
     std::string no_friction =
-        data.friction == nullptr
-            ? ""
+        data.friction == nullptr ? ""
+        : !data.friction->coefficient
+            ? "friction without a coefficient: set Friction::coefficient. A "
+              "cap limits its traction, and does not replace it."
             : friction_refusal(law, pair.discretisation, host_.method,
                                data.tied, data.obstacle != nullptr);
     // Where its two sides meet, a node would be held by its own side, too.

@@ -266,6 +266,43 @@ namespace
         },
         {});
   }
+  /** Entries for an unknown of another rank, which were not sent. */
+  void check_entries()
+  {
+    if (MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+      return;
+    hosts::TwoBlocks<2> blocks(hosts::Case{});
+    blocks.prepare({blocks.pair()});
+    const la::Vector u = blocks.displacement();
+    la::Vector residual(u), increment(u);
+    residual = 0.;
+    // One of the program's own, as copies have no place for such entries.
+    auto &matrix = const_cast<la::Matrix &>(blocks.stiffness());
+    const auto refuses = [&](const std::string &what)
+    {
+      throws_everywhere(
+          what, [&] { blocks.contact().solve(matrix, residual, increment); },
+          {what, "other ranks", "compress("});
+    };
+    blocks.contact().detect(u);
+    // A rank gives the unknowns of its cells to those of lower ranks.
+    for (const auto &cell : blocks.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          const auto row = cell->vertex_dof_index(v, 0);
+          if (u.in_local_range(row))
+            continue;
+          matrix.add(row, row, 1.);
+          residual(row) += 1.;
+        }
+    refuses("matrix given to solve()");
+    matrix.compress(dealii::VectorOperation::add);
+    refuses("residual given to solve()");
+    residual.compress(dealii::VectorOperation::add);
+    residual = 0.;
+    blocks.contact().solve(matrix, residual, increment);
+  }
 } // namespace
 
 int
@@ -278,5 +315,6 @@ main(int argc, char **argv)
   check_stress();
   check_law();
   check_residual();
+  check_entries();
   return good ? 0 : 1;
 }

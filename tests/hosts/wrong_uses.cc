@@ -19,6 +19,7 @@
 #include <deal.II/numerics/vector_tools.h>
 
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 using namespace abut;
@@ -538,6 +539,41 @@ namespace
     expect_force(cracked, 2.);
   }
 
+  /** What is not finite, zero or left over in K and R. */
+  void check_values()
+  {
+    Program program({});
+    const auto solve = [&](Program &wrong)
+    {
+      return message_of(
+          [&]
+          {
+            wrong.contact.detect(wrong.u);
+            wrong.contact.solve(wrong.matrix, wrong.residual, wrong.increment);
+          });
+    };
+    program.prepare(Program::under(0.98));
+    program.find_residual();
+    expect(solve(program).empty(), "right values");
+    const auto held = program.constraints.get_lines()[0].index;
+    program.residual(held) = 1.;
+    expect_words(solve(program), {"residual given to solve()", "eliminate",
+                                  "set_zero()", "row " + std::to_string(held)});
+    program.residual = std::numeric_limits<double>::quiet_NaN();
+    expect_words(solve(program),
+                 {"residual given to solve()", "not finite", "row 0"});
+    program.residual = 0.;
+    program.matrix = 0.;
+    expect_words(solve(program), {"matrix given to solve()", "zero"});
+
+    ContactPair<dim> rough = Program::under(0.98);
+    auto friction = std::make_shared<Friction<dim>>();
+    friction->cap = [](const Point<dim> &) { return 0.3; };
+    rough.friction = friction;
+    expect_words(message_of([&] { Program({}).solve(rough); }),
+                 {"wall", "without a coefficient", "cap"});
+  }
+
   void check_history()
   {
     Use use;
@@ -616,6 +652,7 @@ main(int argc, char **argv)
   check_pairs();
   check_constraints();
   check_shared_vertices();
+  check_values();
   check_history();
   check_shapes();
   return hosts::good ? 0 : 1;
