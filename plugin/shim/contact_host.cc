@@ -2,9 +2,14 @@
 // Vectors and matrices of a host, of whatever type, as ones of Abut's types.
 #include "contact_host.h"
 
+#include "agree.h"
+
+#include <abut/dealii/contact_pair.h>
+
 #include <deal.II/dofs/dof_tools.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace abut::shim
 {
@@ -49,6 +54,7 @@ namespace abut::shim
     dof_handler_ = &dof_handler;
     constraints_ = &constraints;
     n_unknowns_ = dof_handler.n_dofs();
+    vertices_ = dof_handler.get_triangulation().get_vertices();
     reference_.reset();
     copied_.clear();
     copied_reference_.clear();
@@ -73,6 +79,42 @@ namespace abut::shim
                            + std::to_string(n_unknowns_)
                            + " in the last reinit(). Call reinit() and "
                              "detect() after each change of the mesh."));
+  }
+
+  template <int dim>
+  void ContactHost<dim>::check_vertices(const std::string &call) const
+  {
+    // A mesh that is moved, written to a file and moved back is the same.
+    constexpr double round_off = 1e-12;
+    const std::vector<dealii::Point<dim>> &now =
+        dof_handler_->get_triangulation().get_vertices();
+    const std::size_t n = std::min(now.size(), vertices_.size());
+    double size = 0., largest = 0.;
+    std::size_t farthest = 0;
+    for (std::size_t v = 0; v < n; ++v)
+    {
+      size = std::max(size, vertices_[v].norm_square());
+      const double way = now[v].distance_square(vertices_[v]);
+      if (!(way <= largest))
+      {
+        largest = way;
+        farthest = v;
+      }
+    }
+    std::ostringstream text;
+    if (now.size() != vertices_.size())
+      text << "The mesh given to the last reinit() had " << vertices_.size()
+           << " vertices, and has " << now.size() << " in " << call
+           << ". Distribute the unknowns again and call reinit() and detect() "
+              "after each change of the mesh.";
+    else if (!(largest <= round_off * round_off * size))
+      text << "A vertex of the mesh is at (" << now[farthest] << ") in " << call
+           << ", and was at (" << vertices_[farthest]
+           << ") in the last reinit(): surfaces and gaps are those of the old "
+              "positions. Call reinit() and detect() after each motion of the "
+              "mesh, or leave the mesh where it is and let the displacement "
+              "describe the motion.";
+    throw_everywhere<ContactError>(communicator_, text.str());
   }
 
   template <int dim>

@@ -71,6 +71,10 @@ namespace abut::shim
     /** The same, but without reinit() there is nothing to throw about. */
     void check_unchanged(const std::string &call) const;
 
+    /** Throw, on all ranks, if a vertex of the mesh is not where it was in
+     * reinit(). One pass over the vertices. Collective. */
+    void check_vertices(const std::string &call) const;
+
     /** The argument of a host in a @p call: the vector itself, or its view's
      * copy. Throws, on all ranks, if it is not one of the present unknowns.
      * Collective. */
@@ -78,10 +82,6 @@ namespace abut::shim
                              const la::VectorView &given) const;
     la::Vector &mutable_vector(const std::string &call, const std::string &what,
                                const la::MutableVectorView &given) const;
-
-    /** A matrix of another type is copied, to the one of the present step.
-     * Throws, on all ranks, if it is not one of the present unknowns.
-     * Collective. */
     /** The same of a residual. Throws, on all ranks, for values that are not
      * finite, for forces on unknowns that constraints eliminate and, if it
      * @p is_first of an iteration, for values that were not sent to their
@@ -89,6 +89,10 @@ namespace abut::shim
     const la::Vector &residual(const std::string &call,
                                const la::VectorView &given,
                                bool is_first) const;
+
+    /** A matrix of another type is copied, to the one of the present step.
+     * Throws, on all ranks, if it is not one of the present unknowns.
+     * Collective. */
     solve::Stiffness stiffness(const std::string &call,
                                const Tangent &tangent) const
     {
@@ -138,6 +142,7 @@ namespace abut::shim
     const dealii::AffineConstraints<double> *constraints_ = nullptr;
     std::vector<VertexOrigin> vertex_origins_, next_origins_;
     dealii::types::global_dof_index n_unknowns_ = 0; ///< in reinit()
+    std::vector<dealii::Point<dim>> vertices_;       ///< in reinit()
     std::optional<solve::Stiffness> reference_;      ///< none: the present one
     /** Copies of matrices of other types: the present one, and reference. */
     mutable HostMatrixCopy copied_;

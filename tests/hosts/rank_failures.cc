@@ -101,6 +101,7 @@ namespace
                     face->vertex(1) = face->vertex(0);
                     done = true;
                   });
+    blocks.forget();
     throws_everywhere("flat facet",
                       [&] { blocks.contact().detect(blocks.displacement()); },
                       {"interface", "facet"});

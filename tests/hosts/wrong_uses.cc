@@ -12,7 +12,9 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_eulerian.h>
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -539,6 +541,47 @@ namespace
     expect_force(cracked, 2.);
   }
 
+  /** Surfaces are where the mesh was at the last reinit(). */
+  void check_moved_mesh()
+  {
+    Use use;
+    use.two_bodies = true;
+    Program program(use);
+    const auto said = [&](const auto &call) { return message_of(call); };
+    program.solve(program.bodies());
+    program.contact.commit(program.u);
+    // To write it to a file, and back.
+    dealii::GridTools::scale(1.1, program.mesh);
+    dealii::GridTools::scale(1. / 1.1, program.mesh);
+    expect(said([&] { program.iterate(); }).empty(), "a mesh that was back");
+    program.contact.detect(program.u);
+    program.mesh.begin_active()->vertex(0)[1] -= 0.01;
+    const std::vector<std::string> words = {"(-1 -1.01)", "(-1 -1)",
+                                            "reinit()"};
+    expect_words(said(
+                     [&]
+                     {
+                       program.contact.solve(program.matrix, program.residual,
+                                             program.increment);
+                     }),
+                 words);
+    expect_words(said([&] { program.contact.detect(program.u); }), words);
+    program.prepare(program.bodies());
+    expect(said([&] { program.iterate(); }).empty(), "after reinit()");
+
+    // Mappings move bodies, and no vertices.
+    Program eulerian(use);
+    Vector motion(eulerian.u);
+    const dealii::MappingQEulerian<dim, Vector> mapping(1, eulerian.dof_handler,
+                                                        motion);
+    eulerian.contact.set_pairs({eulerian.bodies()});
+    eulerian.contact.reinit(mapping, eulerian.dof_handler,
+                            eulerian.constraints);
+    eulerian.iterate();
+    motion *= 1.1;
+    expect(said([&] { eulerian.iterate(); }).empty(), "another mapping");
+  }
+
   /** What is not finite, zero or left over in K and R. */
   void check_values()
   {
@@ -652,6 +695,7 @@ main(int argc, char **argv)
   check_pairs();
   check_constraints();
   check_shared_vertices();
+  check_moved_mesh();
   check_values();
   check_history();
   check_shapes();
