@@ -3,6 +3,7 @@
 // of.
 #include "contact_problem.h"
 
+#include "agree.h"
 #include "deformation.h"
 #include "examination_limits.h"
 #include "obstacle_in_bodies.h"
@@ -409,6 +410,65 @@ namespace abut::shim
             {{"depth", found.elsewhere}, {"compared with", scale.way}});
     }
 
+    /** How deep nodes of a surface without constraints are in the obstacle, and
+     * how far nodes have moved since detect(), length. */
+    struct OutOfReach
+    {
+      double depth = 0., motion = 0.;
+
+      /** Whether the motion and not a side is the cause. */
+      bool is_certain(const double facet) const
+      {
+        constexpr double round_off = 1e-6;
+        return depth > round_off * facet && motion >= depth;
+      }
+    };
+
+    /** Collective. */
+    template <int dim>
+    OutOfReach find_out_of_reach(const ContactProblem<dim> &i,
+                                 const std::size_t number,
+                                 const la::Vector &displacement)
+    {
+      PairSet<dim> &set = i.surfaces->set();
+      const SurfacePair<dim> &pair = set.pairs()[number];
+      const auto now = set.displacements(displacement);
+      const auto then = set.displacements(i.start_displacement);
+      OutOfReach result;
+      std::vector<dealii::Point<dim>> places;
+      for (const NodeIndex node : pair.secondary.node)
+        if (set.is_owned(node))
+        {
+          places.push_back(set.surface().nodes[node].point + now[node]);
+          result.motion =
+              std::max(result.motion, (now[node] - then[node]).norm());
+        }
+      std::vector<double> distance;
+      run_everywhere<ContactError>(
+          i.communicator,
+          [&] { pair.data.obstacle->distance(places, distance); });
+      for (const double value : distance)
+        result.depth = std::max(result.depth, -value - pair.data.gap);
+      for (double *value : {&result.depth, &result.motion})
+        *value = MPI::max(*value, i.communicator);
+      return result;
+    }
+
+    void judge_reach(const std::string &pair, const OutOfReach &found,
+                     const DepthScale &scale, Findings &findings)
+    {
+      findings.add(ABUT_FAILURE_NO_PARTNER, true,
+                   pair
+                       + ": nodes of the surface are inside of the obstacle by "
+                       + "up to " + compared(scale, found.depth)
+                       + ", and none has a constraint: the obstacle was out "
+                         "of reach in detect(), and nodes have moved by "
+                       + three_digits(found.motion)
+                       + " since. Give the pair a reach of that length, or "
+                         "call detect() at this displacement and solve on.",
+                   {{"depth", found.depth}, {"motion", found.motion}});
+    }
+
     /** Surfaces in an obstacle that they have no constraint with: a small one
      * may have come through them in one step, so that they face its far side.
      */
@@ -530,6 +590,15 @@ namespace abut::shim
         i.host.vector("examine()", "displacement", given_displacement);
     ContactExamination result;
     Findings findings(result);
+    if (i.is_started && i.request.action != ABUT_ACTION_STOP)
+    {
+      // What else could be found is that of no answer.
+      findings.add(ABUT_FAILURE_STEP_LIMIT, true,
+                   "The contact iteration has not ended: update() returned "
+                   "true. Call solve() and update() in turn until update() "
+                   "returns false.");
+      return result;
+    }
     if (residual)
     {
       result.imbalance = i.checks->imbalance(residual);
@@ -612,10 +681,18 @@ namespace abut::shim
                    abut_law_has_penalty(i.input.method.options.law), scale,
                    findings);
       const auto &narrowest = surface_pairs[p].narrowest;
-      judge_between(pairs[p], is_obstacle,
-                    Deepest(facet_penetrations, p, i.communicator).peak,
-                    std::min(checks[p].facet_size, narrowest.width),
-                    checks[p].size_ratio, scale, findings);
+      const bool is_alone =
+          pairs[p].n_rows == 0 && is_obstacle && i.input.pairs[p].geometric_gap;
+      const OutOfReach missed =
+          is_alone ? find_out_of_reach(i, p, displacement) : OutOfReach();
+      const bool is_out_of_reach = missed.is_certain(checks[p].facet_size);
+      if (is_out_of_reach)
+        judge_reach(pairs[p].name, missed, scale, findings);
+      else
+        judge_between(pairs[p], is_obstacle,
+                      Deepest(facet_penetrations, p, i.communicator).peak,
+                      std::min(checks[p].facet_size, narrowest.width),
+                      checks[p].size_ratio, scale, findings);
       result.touches.push_back(pairs[p].secondary_force.norm() > 0.
                                || pairs[p].between_rows > 0.);
       judge_separated_rows(pairs[p].name, apart[p], follows, scale, findings);
@@ -635,7 +712,7 @@ namespace abut::shim
             refused.failure, true,
             pairs[p].name
                 + " is normally rejected; this result is for study only.");
-      if (is_obstacle && i.input.pairs[p].geometric_gap)
+      if (is_obstacle && i.input.pairs[p].geometric_gap && !is_out_of_reach)
       {
         const auto inside =
             find_obstacle_in_bodies(i.host.mapping(), i.host.dof_handler(),

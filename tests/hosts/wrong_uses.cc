@@ -54,6 +54,7 @@ namespace
     bool is_uniaxial = false;   ///< the body below the other is as wide as it,
                                 ///< and nothing hinders them sideways
     double same_vertex = 1e-12; ///< distance of vertices that are merged
+    double lift = 0.;           ///< the body is moved up by this
   };
 
   /** The square of step-8, lambda = mu = 1, fixed below; or another one on it
@@ -76,7 +77,7 @@ namespace
       if (use.is_uniaxial)
         prescribe(left, {}, along);
       if (use.has_supports)
-        prescribe(bottom, {}, across);
+        prescribe(bottom, Tensor<1, dim>({0., use.lift}), across);
       if (use.two_bodies || use.is_cracked)
         prescribe(top, Tensor<1, dim>({0., -0.05}), across);
       constraints.close();
@@ -617,6 +618,46 @@ namespace
                  {"wall", "without a coefficient", "cap"});
   }
 
+  /** An iteration that is looked at before its end, or goes wrong. */
+  void check_iteration()
+  {
+    Program program({});
+    program.prepare(Program::under(0.999));
+    program.contact.detect(program.u);
+    program.find_residual();
+    const auto solve = [&] {
+      program.contact.solve(program.matrix, program.residual,
+                            program.increment);
+    };
+    solve();
+    program.u += program.increment;
+    expect(program.contact.update(program.u), "a second step");
+    const auto seen =
+        program.contact.checks().examine(program.u, program.residual).findings;
+    expect(seen.size() == 1 && seen[0].failure == ABUT_FAILURE_STEP_LIMIT
+               && seen[0].is_error,
+           "nothing but that it has no end: " + std::to_string(seen.size()));
+    expect_words(seen[0].text, {"has not ended", "update()"});
+    program.find_residual();
+    solve();
+    expect_words(message_of([&] { program.contact.update(program.increment); }),
+                 {"increment of the last", "their sum"});
+
+    // The surface comes to the wall in the first step, from out of reach.
+    Use use;
+    use.lift = 0.7;
+    Program lifted(use);
+    lifted.solve(Program::under(1.5));
+    expect_words(findings(lifted, ABUT_FAILURE_NO_PARTNER, true),
+                 {"wall", "by up to 0.2", "out of reach", "0.7", "reach"});
+    expect(findings(lifted, ABUT_FAILURE_UNSEEN, true).empty(),
+           "nothing is between nodes");
+    lifted.iterate();
+    expect(findings(lifted, ABUT_FAILURE_NO_PARTNER, true).empty()
+               && lifted.contact.results().pairs()[0].n_active > 0,
+           "detect() at this displacement");
+  }
+
   void check_history()
   {
     Use use;
@@ -697,6 +738,7 @@ main(int argc, char **argv)
   check_shared_vertices();
   check_moved_mesh();
   check_values();
+  check_iteration();
   check_history();
   check_shapes();
   return hosts::good ? 0 : 1;
