@@ -592,11 +592,11 @@ namespace abut::shim
     Findings findings(result);
     if (i.is_started && i.request.action != ABUT_ACTION_STOP)
     {
-      // What else could be found is that of no answer.
+      // Other findings would be about a displacement that is no answer.
       findings.add(ABUT_FAILURE_STEP_LIMIT, true,
                    "The contact iteration has not ended: update() returned "
-                   "true. Call solve() and update() in turn until update() "
-                   "returns false.");
+                   "true. Call solve() and update() until update() returns "
+                   "false.");
       return result;
     }
     if (residual)

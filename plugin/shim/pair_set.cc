@@ -105,9 +105,9 @@ namespace abut::shim
                 "the same ids to both where a surface touches itself.");
     }
 
-    /** Vertices of those with these first unknowns around which cells do not
-     * hang together by faces: two bodies have the vertex, but no more than an
-     * edge, in common. Those at the end of a crack are none. */
+    /** First unknowns, of the wanted ones, of vertices around which cells do
+     * not hang together by faces: two bodies have the vertex in common, but no
+     * face. At the tip of a crack cells hang together. */
     template <int dim>
     std::vector<global_dof_index>
     hinges(const dealii::DoFHandler<dim> &dof_handler,
@@ -239,8 +239,8 @@ namespace abut::shim
     text << n[2] << " of the " << n[0] << " nodes of the secondary surface and "
          << n[1] << " of the primary are the same ones, the first at ("
          << first.second
-         << "): the bodies have no cells' faces in common there, but they "
-            "cannot part or slide. Give each body vertices of its own, as "
+         << "): bodies without a common face cannot part or slide there. "
+            "Give each body vertices of its own, as "
             "GridGenerator::merge_triangulations() does with a "
             "duplicated_vertex_tolerance of 0.";
     throw ContactError(about_pair(pair.data.name, text.str()));
