@@ -32,7 +32,7 @@ namespace abut::app
                                    {"pressure", "largest pressure"},
                                    {"contact_area", "contact area"},
                                    {"penetration", "penetration"},
-                                   {"friction_force", "friction force"},
+                                   {"friction_force", "sum of |friction|"},
                                    {"slip", "slip"},
                                    {"impulse", "impulse"}};
 
@@ -154,6 +154,16 @@ namespace abut::app
         return vector != nullptr ? vector->size() : 0;
       }
 
+      /** Closed points that stick, of all that are closed. */
+      std::string sticking(const unsigned int pair) const
+      {
+        const auto closed = report.number(pair_key(pair, "active")),
+                   slipping = report.number(pair_key(pair, "slipping"));
+        return closed && slipping
+                   ? in_short(*closed - *slipping) + " of " + in_short(*closed)
+                   : "-";
+      }
+
       std::string label_of_pair(const Word &word) const
       {
         // In the plane there are lengths.
@@ -262,6 +272,11 @@ namespace abut::app
           keys.push_back(key);
           head.push_back(label_of_pair(word));
         }
+        if (key == "friction_force" && pair <= n_pairs)
+        {
+          keys.push_back("slipping");
+          head.push_back("sticking points");
+        }
       }
       TextTable table;
       table.add(head);
@@ -276,7 +291,9 @@ namespace abut::app
         for (const std::string &key : keys)
         {
           const auto value = report.number(pair_key(pair, key.c_str()));
-          row.push_back(value ? in_short(*value) : "-");
+          row.push_back(key == "slipping" ? sticking(pair)
+                        : value           ? in_short(*value)
+                                          : "-");
         }
         table.add(row);
       }
