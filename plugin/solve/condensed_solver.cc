@@ -115,6 +115,8 @@ namespace abut::solve
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
+    parameters_ = parameters_on(space, parameters_);
+    choice_ = MultigridChoice(parameters_);
     step_ = space.kept->step;
     assembled_.reset();
     geometric_.reset();
@@ -423,7 +425,7 @@ namespace abut::solve
   std::string CondensedSolver::method() const
   {
     if (is_direct())
-      return DirectSolver::name(*stiffness_);
+      return direct_method(DirectSolver::name(*stiffness_), space_);
     return krylov_method() + ", " + preconditioner();
   }
 
@@ -525,7 +527,8 @@ namespace abut::solve
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
-      if (!keeper_.is_kept() && !choice_.is_geometric())
+      if (!keeper_.is_kept() && !choice_.is_geometric()
+          && !may_factorise(parameters_, stiffness_->m(), space_))
         throw_failure(krylov_method(), failure, tolerance);
     }
     report.n_matvecs += control.last_step() * (filter_ ? 2 : 0);
@@ -557,7 +560,17 @@ namespace abut::solve
       report.setup_seconds += timer.wall_time();
       x = 0.;
     }
-    iterate(rhs, parameters_.max_iterations, digits, tolerance, x, report);
+    if (iterate(rhs, parameters_.max_iterations, digits, tolerance, x, report))
+      return;
+    const dealii::Timer timer;
+    factorise_from_now(parameters_, space_, parameters_.max_iterations);
+    choice_ = MultigridChoice(parameters_);
+    build();
+    report.method = method();
+    ++report.n_setups;
+    report.setup_seconds += timer.wall_time();
+    x = 0.;
+    solve_directly(rhs, tolerance, x, report);
   }
 
   bool CondensedSolver::has_near_factors()

@@ -17,6 +17,9 @@ namespace abut::solve
     unsigned int step = 0; ///< factors of earlier ones are forgotten
     std::unique_ptr<GeometricMultigrid> geometric;
     std::shared_ptr<const void> geometric_of; ///< values of its matrix
+    /** Iterations of `Linear solver = auto` with no solution, after which
+     * systems on this mesh are factorised; 0: none. */
+    unsigned int useless_iterations = 0;
     FreeBodies bodies;
     std::shared_ptr<const void> bodies_of; ///< values of the stiffness
   };

@@ -45,6 +45,8 @@ namespace abut::solve
   void MaskedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
+    parameters_ = parameters_on(space, parameters_);
+    choice_ = MultigridChoice(parameters_);
   }
 
   void MaskedSolver::reinit(const la::Matrix &matrix)
@@ -229,7 +231,8 @@ namespace abut::solve
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
-      if (!choice_.is_geometric())
+      if (!choice_.is_geometric()
+          && !may_factorise(parameters_, matrix_->m(), space_))
         throw_failure("Conjugate gradients", failure, tolerance);
     }
     n_iterations = control.last_step();
@@ -245,23 +248,31 @@ namespace abut::solve
                                        LinearReport &report)
   {
     const double digits = std::log10(residual.l2_norm() / tolerance);
-    const unsigned int most = choice_.is_geometric()
-                                  ? choice_.patience(digits)
-                                  : parameters_.max_iterations;
+    unsigned int most = choice_.is_geometric() ? choice_.patience(digits)
+                                               : parameters_.max_iterations;
     unsigned int n_iterations = 0;
-    if (!iterate(mask, residual, tolerance, most, correction, report,
-                 n_iterations))
+    while (!iterate(mask, residual, tolerance, most, correction, report,
+                    n_iterations))
     {
       const dealii::Timer timer;
-      choice_.give_up(n_iterations);
+      if (choice_.is_geometric())
+        choice_.give_up(n_iterations);
+      else
+      {
+        factorise_from_now(parameters_, space_, n_iterations);
+        choice_ = MultigridChoice(parameters_);
+      }
+      most = parameters_.max_iterations;
       geometric_.reset();
       build(mask);
       report.method = method();
       ++report.n_setups;
       report.setup_seconds += timer.wall_time();
       correction = 0.;
-      iterate(mask, residual, tolerance, parameters_.max_iterations, correction,
-              report, n_iterations);
+      if (!is_direct())
+        continue;
+      direct_->solve(correction, residual);
+      return;
     }
     keeper_.record_speed(digits, n_iterations);
   }
@@ -312,7 +323,7 @@ namespace abut::solve
 
   std::string MaskedSolver::method() const
   {
-    return is_direct() ? DirectSolver::name(*matrix_)
+    return is_direct() ? direct_method(DirectSolver::name(*matrix_), space_)
                        : "conjugate gradients, " + choice_.name();
   }
 

@@ -67,6 +67,16 @@ for mu in (0.01, 0.3):
              <= mu * summary["pair_1_normal_force"] * (1 + 1e-9),
              f"friction of a cone with friction {mu}")
 
+# What `auto` does not solve by iterations is factorised; they fail by request.
+few = ("Solver/Direct limit=100", "Solver/Maximum iterations=2")
+expected = solved(p.source / "prm/dragged-block.prm")["energy"]
+p.close(solved(p.source / "prm/dragged-block.prm", *few)["energy"], expected,
+        1e-10, "energy by factors after iterations")
+result = run(p.source / "prm/dragged-block.prm", few[1],
+             "Solver/Linear solver=iterative")
+p.expect(result.returncode == 3 and "ABUT-F30" in result.stderr,
+         f"two iterations: {result.returncode} {result.stderr}")
+
 # A cube of edge 1 that slides by 5 is not on the other one any more.
 blocks = p.source / "prm/two-blocks-3d.prm"
 for way, code in ((5, 3), (0.6, 0)):
