@@ -621,10 +621,12 @@ namespace abut::shim
     const std::vector<unsigned int> alone = unsupported_bodies(i);
     for (const unsigned int body : alone)
       findings.add(ABUT_FAILURE_FLOATING_BODY, false,
-                   "Body " + std::to_string(body + 1)
-                       + " has no support at all, and loads and contact do not "
-                         "determine where it is: are its boundary values in "
-                         "the constraints?");
+                   "Nothing supports "
+                       + (body < i.input.body_names.size()
+                              ? i.input.body_names[body]
+                              : "body " + std::to_string(body + 1))
+                       + ", and loads and contact do not determine where it "
+                         "is: are its boundary values in the constraints?");
     for (const solve::FreeMotion &motion : i.system.undetermined)
       if (std::find(alone.begin(), alone.end(), motion.body) == alone.end())
         findings.add(

@@ -231,6 +231,21 @@ namespace abut::solve
                                    bodies_.radius[which]);
   }
 
+  std::string
+  UnsupportedBodies::names(const std::vector<Combination> &motions) const
+  {
+    constexpr double visible = 1e-6;
+    std::set<unsigned int> bodies;
+    for (const Combination &motion : motions)
+      for (std::size_t k = 0; k < bodies_.motions.size(); ++k)
+        if (std::abs(motion[k]) > visible)
+          bodies.insert(bodies_.motions[k].body);
+    std::string text;
+    for (const unsigned int which : bodies)
+      text += (text.empty() ? "" : " and ") + name(which);
+    return text;
+  }
+
   void UnsupportedBodies::check(const PointOperator &rows,
                                 const std::vector<std::uint8_t> &resists) const
   {
@@ -357,7 +372,7 @@ namespace abut::solve
     text << "Bodies without supports: " << describe(free[0]);
     if (free.size() > 1)
       text << ", and " << free.size() - 1 << " more such motion"
-           << (free.size() > 2 ? "s" : "") << " meet";
+           << (free.size() > 2 ? "s" : "") << " of " << names(free) << " meet";
     text << (free.size() > 1 ? "" : ", which meets")
          << " no resistance from supports or from the " << n_rows << ' '
          << which

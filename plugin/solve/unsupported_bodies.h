@@ -114,6 +114,9 @@ namespace abut::solve
     /** The body and its motion, as "body 1 can rotate about (0, 1)". */
     std::string describe(const Combination &combination) const;
 
+    /** The bodies that take part in motions, as "body 1 and body 2". */
+    std::string names(const std::vector<Combination> &motions) const;
+
     /** Throw the message, with the body that the motion is of. */
     [[noreturn]] void throw_failure(const Combination &free,
                                     Message message) const;

@@ -67,6 +67,19 @@ for mu in (0.01, 0.3):
              <= mu * summary["pair_1_normal_force"] * (1 + 1e-9),
              f"friction of a cone with friction {mu}")
 
+# Bodies are called by their number and name, all that are free.
+named = ("Body 1/Name=sled", "Body 1/Prescribed displacement=")
+result = run(p.source / "prm/failures/floating-sideways.prm", *named)
+p.expect(result.returncode == 3 and "ABUT-F12" in result.stderr
+         and "body 1 (sled) can" in result.stderr, f"sled: {result.stderr}")
+result = run(p.source / "prm/two-cylinders.prm", "Output/Expected=",
+             "Body 1/Name=lower", "Body 2/Name=upper",
+             "Body 1/Prescribed displacement=",
+             "Body 2/Prescribed displacement=")
+p.expect(result.returncode == 3 and "ABUT-F12" in result.stderr
+         and "of body 1 (lower) and body 2 (upper)" in result.stderr,
+         f"two free bodies: {result.stderr}")
+
 # What `auto` does not solve by iterations is factorised; they fail by request.
 few = ("Solver/Direct limit=100", "Solver/Maximum iterations=2")
 expected = solved(p.source / "prm/dragged-block.prm")["energy"]

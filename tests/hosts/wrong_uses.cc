@@ -484,7 +484,7 @@ namespace
     floating.solve(Program::under(0.98));
     const std::string lone =
         findings(floating, ABUT_FAILURE_FLOATING_BODY, false);
-    expect_words(lone, {"Body 1 has no support at all", "boundary values"});
+    expect_words(lone, {"Nothing supports body 1", "boundary values"});
     expect(std::count(lone.begin(), lone.end(), '\n') == 1, "once: " + lone);
     expect(findings(floating, ABUT_FAILURE_UNBALANCED, true).empty()
                && findings(floating, ABUT_FAILURE_UNBALANCED, false).empty(),

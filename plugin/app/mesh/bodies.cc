@@ -299,12 +299,19 @@ namespace abut::app
   }
 
   template <int dim>
-  std::string Bodies<dim>::name_of_body(const unsigned int body) const
+  std::string Bodies<dim>::given_name(const unsigned int body) const
   {
     for (const auto &[name, number] : body_names)
       if (number == body)
         return name;
-    return "body " + std::to_string(body + 1);
+    return "";
+  }
+
+  template <int dim>
+  std::string Bodies<dim>::name_of_body(const unsigned int body) const
+  {
+    const std::string name = given_name(body);
+    return name.empty() ? "body " + std::to_string(body + 1) : name;
   }
 
   template <int dim> std::string Bodies<dim>::names_in_words() const

@@ -159,6 +159,9 @@ namespace abut::app
      * name, for a number of the triangulation. */
     std::string name(BoundaryId number) const;
 
+    /** The name of a body, by the scene or its mesh file; empty: none. */
+    std::string given_name(unsigned int body) const;
+
     /** "body 2", or its name. */
     std::string name_of_body(unsigned int body) const;
 

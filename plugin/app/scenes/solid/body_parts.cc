@@ -11,7 +11,8 @@ namespace abut::app
   template <int dim> std::string BodyPart<dim>::name() const
   {
     std::ostringstream text;
-    text << "body " << body + 1;
+    text << "body " << body + 1
+         << (given_name.empty() ? "" : " (" + given_name + ")");
     if (n_parts > 1)
       text << ", of whose " << n_parts << " parts the one with the corner ("
            << first << "),";

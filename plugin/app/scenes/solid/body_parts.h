@@ -20,14 +20,15 @@ namespace abut::app
   /** A part of a body, all of whose cells hang together. */
   template <int dim> struct BodyPart
   {
-    unsigned int body = 0; ///< of the scene, from 0
-    unsigned int part = 0; ///< of its parts, from 0
+    unsigned int body = 0;  ///< of the scene, from 0
+    std::string given_name; ///< of the body; empty: none
+    unsigned int part = 0;  ///< of its parts, from 0
     unsigned int n_parts = 1;
     dealii::Point<dim> first; ///< a corner of the part
     std::set<dealii::types::boundary_id> ids;
 
-    /** `body 1`, or `body 1, of whose 2 parts the one with the corner (0 1),`
-     */
+    /** `body 1`, `body 1 (roller)`, or `body 1, of whose 2 parts the one with
+     * the corner (0 1),` */
     std::string name() const;
   };
 

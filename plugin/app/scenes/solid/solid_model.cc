@@ -176,8 +176,11 @@ namespace abut::app
     const shim::BodyNumbers<dim> numbers(this->triangulation);
     parts = find_parts(this->triangulation);
     std::vector<std::string> names;
-    for (const BodyPart<dim> &part : parts)
+    for (BodyPart<dim> &part : parts)
+    {
+      part.given_name = bodies.given_name(part.body);
       names.push_back(part.name());
+    }
     assembler.set_body_names(std::move(names));
     freedom = rigid_freedom<dim>(
         elasticity.mapping, elasticity.dof_handler, parts.size(),
