@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace abut::shim
 {
@@ -49,6 +50,9 @@ namespace abut::shim
         if (!free.empty())
           unsupported.fail(free, solve::n_resisting(i.rows.coefficients, all),
                            "contact rows, open or not", "or tie it");
+        if (given_residual && i.is_started)
+          check_closed(unsupported,
+                       i.host.vector("supports()", "residual", given_residual));
       }
 
       std::vector<Penetration<dim>>
@@ -174,6 +178,35 @@ namespace abut::shim
       }
 
     private:
+      /** The same for points that are closed where an iteration has ended:
+       * whether loads rotate a body about them. */
+      void check_closed(const solve::UnsupportedBodies &unsupported,
+                        const la::Vector &residual) const
+      {
+        constexpr double small_gaps = 1e-2, visible_work = 1e-2;
+        const solve::PointOperator &rows = i.rows.coefficients;
+        std::vector<std::uint8_t> resists(rows.n_rows());
+        for (int row = 0; row < rows.n_rows(); ++row)
+          resists[row] = rows.bilateral()[row] != 0
+                         || i.request.state[row] == ABUT_STATE_CLOSED;
+        const auto weak = unsupported.along_which_works(
+            unsupported.free_motions(rows, resists, small_gaps), residual,
+            visible_work * residual.l1_norm());
+        if (weak.empty())
+          return;
+        const double n = solve::n_resisting(rows, resists);
+        std::ostringstream text;
+        text << "Bodies without supports: " << unsupported.describe(weak[0])
+             << ", and the loads push it there. The " << n
+             << (n == 1. ? " point in contact hardly resists"
+                         : " points in contact hardly resist")
+             << " this motion. Support the body in "
+                "that direction, or let the loads pass through the contact.";
+        unsupported.throw_failure(weak[0],
+                                  coded(ABUT_FAILURE_FLOATING_BODY, text.str(),
+                                        {{"points in contact", n}}));
+      }
+
       /** Norms of what is out of balance, and of the contact forces or @p
        * least.
        */

@@ -21,10 +21,6 @@ namespace abut::solve
 
   namespace
   {
-    /** Gaps are known to some 1e-12 of the displacement, energies to the
-     * square of it. */
-    constexpr double free_gap = 1e-14;
-
     /** Springs of points that slip count as 0 below this part of the surface's
      * own stiffness. */
     constexpr double no_spring = 1e-9;
@@ -290,8 +286,10 @@ namespace abut::solve
     return result;
   }
 
-  std::vector<UnsupportedBodies::Combination> UnsupportedBodies::free_motions(
-      const PointOperator &rows, const std::vector<std::uint8_t> &resists) const
+  std::vector<UnsupportedBodies::Combination>
+  UnsupportedBodies::free_motions(const PointOperator &rows,
+                                  const std::vector<std::uint8_t> &resists,
+                                  const double tolerance) const
   {
     const unsigned int n = size();
     if (n == 0)
@@ -311,7 +309,7 @@ namespace abut::solve
     const double weight = sums[n * n];
     for (unsigned int k = 0; weight > 0. && k < n * n; ++k)
       sums[k] /= weight;
-    return null_space(n, sums.data(), free_gap);
+    return null_space(n, sums.data(), tolerance);
   }
 
   double n_resisting(const PointOperator &rows,

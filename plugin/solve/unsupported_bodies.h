@@ -47,11 +47,17 @@ namespace abut::solve
       return static_cast<unsigned int>(bodies_.motions.size());
     }
 
-    /** Combinations of motions that no row with @p resists nonzero resists.
-     * Collective. */
+    /** Gaps are known to some 1e-12 of the displacement, energies to the
+     * square of it. */
+    static constexpr double free_gap = 1e-14;
+
+    /** Combinations of motions that no row with @p resists nonzero resists:
+     * the mean square of the changes of their gaps is at most @p tolerance, for
+     * displacements of 1. Collective. */
     std::vector<Combination>
     free_motions(const PointOperator &rows,
-                 const std::vector<std::uint8_t> &resists) const;
+                 const std::vector<std::uint8_t> &resists,
+                 double tolerance = free_gap) const;
 
     /** Rows that resist a motion. */
     struct Resisting

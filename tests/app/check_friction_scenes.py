@@ -67,6 +67,41 @@ for mu in (0.01, 0.3):
              <= mu * summary["pair_1_normal_force"] * (1 + 1e-9),
              f"friction of a cone with friction {mu}")
 
+# Half a disc on another, pressed by P = 9.6 and pulled by more than mu P = 2.88
+# in the same step; and one on a smooth plane, with a moment about its centre,
+# through which all forces of contact pass.
+def half_disc(number, turn, move, *lines):
+    return section(f"Body {number}", section(
+        "Mesh", "Generator = half_hyper_ball", "Arguments = 0, 0 : 8",
+        f"Rotate = {turn}", f"Move = 0, {move}"), "Young modulus = 210",
+        "Poisson ratio = 0.3", *lines)
+
+
+base = "set Scene = solid\nset Dimension = 2\n"
+slides = p.write("slides.prm", base + section("Solid", "Bodies = 2", "Pairs = 1")
+                 + half_disc(1, 90, -8, "Support = 1: 0, 0")
+                 + half_disc(2, -90, 8, "Traction = 1: 0.25*t, -0.6*t + 0.09375*x*t")
+                 + section("Pair 1", "Secondary = 1: 0", "Primary = 2: 0",
+                           "Friction = 0.3")
+                 + section("Refinement", "Level = 5"))
+for settings in ((), ("Time stepping/Cut back=false",)):
+    result = run(slides, *settings)
+    p.expect(result.returncode == 3 and "ABUT-F42" in result.stderr
+             and "ABUT-F24" not in result.stderr,
+             f"slides {settings}: {result.stderr}")
+tips = p.write("tips.prm", base + section("Solid", "Obstacles = 1", "Pairs = 1")
+               + half_disc(1, -90, 8, "Support = 1: 0, free",
+                           "Traction = 1: 0, -0.3*t - 0.2*x*t")
+               + section("Obstacle 1", "Kind = plane")
+               + section("Pair 1", "Secondary = 1: 0", "Obstacle = 1")
+               + section("Method", "Contact geometry = current")
+               + section("Refinement", "Level = 5"))
+result = run(tips)
+p.expect(result.returncode == 3 and "ABUT-F12" in result.stderr
+         and "body 1 can rotate about" in result.stderr
+         and "check that the tangent" not in result.stderr,
+         f"tips: {result.stderr}")
+
 # Bodies are called by their number and name, all that are free.
 named = ("Body 1/Name=sled", "Body 1/Prescribed displacement=")
 result = run(p.source / "prm/failures/floating-sideways.prm", *named)

@@ -30,8 +30,10 @@ namespace abut
     /** Look for rigid motions that neither @p tangent nor any row resists, be
      * it open or closed: then there is no answer, however small the load steps.
      * With the @p residual at displacement 0, internal minus external forces,
-     * only those along which loads do work. Throws SolverFailure, which names
-     * body and motion. Call after detect(); one pass over a matrix, or one
+     * only those along which loads do work; after an iteration also those that
+     * its closed points hardly resist, with the number of these points among
+     * the numbers of the message. Throws SolverFailure, which names body and
+     * motion. Call after detect(); one pass over a matrix, or one
      * product of a host and one for each rigid motion. Does nothing for
      * membranes. */
     virtual void supports(const Tangent &tangent,

@@ -263,6 +263,13 @@ namespace abut::app
       return "";
     }
 
+    /** The body that slides because friction does not carry its loads, in the
+     * last iterate of a solve without an answer; empty: none. */
+    virtual Message sliding() const
+    {
+      return "";
+    }
+
     /** Whether the results of all load steps, taken together, are an answer. */
     virtual bool is_usable() const
     {

@@ -849,14 +849,24 @@ namespace abut::app
       }
       return examine();
     }
-    // What no row can hold no load step holds either.
     const abut_failure code = failure.failure;
-    const Message why =
-        code == ABUT_FAILURE_FLOATING_BODY ? free_motion() : Message();
-    if (!why.empty())
-      failure = why;
+    const bool floats = code == ABUT_FAILURE_FLOATING_BODY;
+    const Message slides =
+        model.has_contact() && code != ABUT_FAILURE_FREE_SLIDING
+            ? model.sliding()
+            : Message();
+    const Message moves =
+        floats || code == ABUT_FAILURE_NEWTON || code == ABUT_FAILURE_PARTNERS
+            ? free_motion()
+            : Message();
+    // What no row can hold no load step holds either.
+    const bool is_hopeless = floats && !moves.empty() && moves.numbers.empty();
+    if (!slides.empty() && !is_hopeless)
+      failure = slides;
+    else if (!moves.empty() && (is_hopeless || !floats))
+      failure = moves;
     const std::string where = time_step();
-    const bool goes_on = load_steps.reject() && why.empty();
+    const bool goes_on = load_steps.reject() && !is_hopeless;
     const bool is_same = failure.text == told;
     if (goes_on)
       report.detail("load step cut back to time "

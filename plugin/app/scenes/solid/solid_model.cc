@@ -6,6 +6,7 @@
 #include "app/input/short_number.h"
 #include "app/physics/contact_traction.h"
 #include "app/physics/elastic_traction.h"
+#include "app/physics/load_resultants.h"
 #include "app/pictures/contact_output.h"
 #include "app/pictures/outline.h"
 #include "app/restart/archive.h"
@@ -399,6 +400,51 @@ namespace abut::app
                   "give it a support ("
                 + bodies[parts[k].body].parameter("Prescribed displacement")
                 + ").");
+    return "";
+  }
+
+  /* All points of the pair slip one way, which nothing else stops: then the
+   * loads and the other contacts of the body balance the friction. */
+  template <int dim> Message SolidModel<dim>::sliding() const
+  {
+    constexpr double one_way = 0.9, unstopped = 0.99, reached = 0.99;
+    if (motion || !pairs->has_friction())
+      return "";
+    const auto results = run.contact.results().pairs();
+    const auto loads = load_resultants(elasticity, bodies.size());
+    const std::vector<FreeBody<dim>> free = free_bodies();
+    for (unsigned int k = 0; k < parts.size(); ++k)
+      for (std::size_t p = 0; p < results.size(); ++p)
+      {
+        const PairResult<dim> &pair = results[p];
+        const double side = free[k].sides[p],
+                     limit = pair.secondary_friction.norm();
+        if (parts[k].n_parts > 1 || std::abs(side) != 1. || pair.n_active == 0
+            || pair.n_slipping < pair.n_active
+            || !(limit > one_way * pair.friction_force))
+          continue;
+        const dealii::Tensor<1, dim> against =
+            side / limit * pair.secondary_friction;
+        dealii::Tensor<1, dim> along, force = loads[parts[k].body].force;
+        for (unsigned int d = 0; d < dim; ++d)
+          along[d] = -against[d] * free[k].free[d];
+        for (std::size_t q = 0; q < results.size(); ++q)
+          if (q != p && free[k].sides[q] != 0.)
+            force += free[k].sides[q] * results[q].secondary_force;
+        const double load = force * along;
+        if (along.norm() < unstopped || !(load > reached * limit))
+          continue;
+        return coded(
+            ABUT_FAILURE_FREE_SLIDING,
+            pair.name + ": all points slip, and nothing but friction supports "
+                + parts[k].name() + ": the load along the surface is "
+                + short_number(load, 3) + ", the friction at most "
+                + short_number(limit, 3)
+                + ". Support the body in that direction, load it less along "
+                  "the surface, press it more, or give the pair a larger "
+                  "coefficient of friction.",
+            {{"load", load}, {"friction", limit}});
+      }
     return "";
   }
 

@@ -83,6 +83,7 @@ namespace abut::app
     void look_at_rows(bool is_last) override;
     /** Names a body that nothing holds. */
     Message refuse() const override;
+    Message sliding() const override;
 
     double estimate(dealii::Vector<float> &squared) const override;
     double stiffness_of(
