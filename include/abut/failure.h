@@ -99,6 +99,8 @@ extern "C"
     "a finer mesh where the surfaces touch")                                   \
   X(NARROW_LOAD, 49, "loads that change within facets",                        \
     "facets that end where the load does; a finer mesh there")                 \
+  X(LATE_CONTACT, 50, "points close late in a step with friction",             \
+    "smaller load steps while the contact grows")                              \
   X(UNSTABLE, 52, "an equilibrium that is unstable",                           \
     "a small disturbance, or the motion")
 

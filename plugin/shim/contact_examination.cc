@@ -8,6 +8,7 @@
 #include "examination_limits.h"
 #include "obstacle_in_bodies.h"
 #include "obstacle_width.h"
+#include "pair_friction.h"
 #include "short_text.h"
 
 #include <abut/dealii/coded.h>
@@ -41,8 +42,12 @@ namespace abut::shim
                const std::string &text, Message::Numbers numbers = {},
                const double between_nodes = 0.)
       {
-        ContactFinding finding(coded(failure, text, std::move(numbers)),
-                               is_error);
+        add(ContactFinding(coded(failure, text, std::move(numbers)), is_error),
+            between_nodes);
+      }
+
+      void add(ContactFinding finding, const double between_nodes = 0.)
+      {
         finding.between_nodes = between_nodes;
         finding.pair_number = number_;
         finding.pair = name_;
@@ -699,6 +704,10 @@ namespace abut::shim
                                || pairs[p].between_rows > 0.);
       judge_separated_rows(pairs[p].name, apart[p], follows, scale, findings);
       judge_width(pairs[p].name, narrowest, findings);
+      if (const Message late = late_contact(pairs[p].name, pairs[p].late_force,
+                                            pairs[p].normal_force);
+          !late.empty())
+        findings.add(ContactFinding(late, false));
       // Bodies with pressure may be deformed by bending alone: compared
       // with all motion.
       const DepthScale motion{scale.far, scale.far, scale.least};

@@ -120,22 +120,54 @@ namespace abut::shim
       i.start.find(i.start_rows(), i.history);
     }
 
+    /** Find the points that were open at the last commit(), all of them before
+     * the first, and that are farther from the other side than the nearest
+     * point of their pair: those close later in the step. @p pressure: [rows]
+     * then, empty if it is not known on this mesh. Collective. */
+    template <int dim>
+    void find_late(ContactProblem<dim> &i,
+                   const RowSource::FrictionalPoints &points,
+                   const std::vector<double> &pressure)
+    {
+      i.rows.late.clear();
+      la::Vector start(i.committed.displacement());
+      const bool is_first = start.size() == 0;
+      if (is_first)
+        start.reinit(i.host.owned(), i.communicator);
+      std::vector<double> gap(i.rows.coefficients.n_rows());
+      i.rows.coefficients.gap(start, gap.data());
+      const std::vector<int> pair = i.surfaces->points().row_pairs();
+      std::vector<double> nearest(i.input.pairs.size(), INFINITY);
+      for (const std::int32_t row : points.first)
+        nearest[pair[row]] = std::min(nearest[pair[row]], gap[row]);
+      for (double &least : nearest)
+        least = MPI::min(least, i.communicator);
+      const double least =
+          touching * smallest_body(i.near_null_space(), i.communicator);
+      for (const std::int32_t row : points.first)
+        if (gap[row] > nearest[pair[row]] + least
+            && (is_first || (!pressure.empty() && !(pressure[row] > 0.))))
+          i.rows.late.push_back(row);
+    }
+
     /** Give the strategy its data of friction. Collective. */
     template <int dim> void set_friction(ContactProblem<dim> &i)
     {
       i.rows.diagonal.clear();
+      i.rows.late.clear();
       const auto points_with_friction = i.source->friction();
       if (!points_with_friction.any)
         return;
-      std::vector<double> traction;
+      std::vector<double> traction, pressure;
       if (i.history.knows(ABUT_HISTORY_COMMITTED, i.rows.mesh))
       {
-        const std::vector<double> rows = i.history.pressures(
-            i.rows.numbers(), i.rows.placed, ABUT_HISTORY_COMMITTED);
+        pressure = i.history.pressures(i.rows.numbers(), i.rows.placed,
+                                       ABUT_HISTORY_COMMITTED);
         for (int row = 0; row < i.rows.coefficients.n_rows(); ++row)
           if (i.rows.coefficients.is_tangent(row))
-            traction.push_back(rows[row]);
+            traction.push_back(pressure[row]);
       }
+      find_late(i, points_with_friction, pressure);
       abut_strategy_friction friction = {};
       friction.struct_size = sizeof(friction);
       friction.n = static_cast<std::int32_t>(points_with_friction.first.size());

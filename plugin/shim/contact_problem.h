@@ -95,6 +95,9 @@ namespace abut::shim
     std::vector<double> gap;   ///< [rows] at the current displacement
     bool has_friction = false; ///< some pair has, on all ranks
     RowSource::SlipReference slip_reference;
+    /** Normals of points with friction that close later in the step than the
+     * first of their pair. */
+    std::vector<std::int32_t> late;
     /** [rows] place of a row's own derivatives in those of the request. */
     std::vector<std::int64_t> diagonal;
 

@@ -50,8 +50,11 @@ namespace abut::shim
         i.host.check_unchanged("pairs()");
         if (i.surfaces == nullptr)
           return {};
+        const std::vector<double> pressures = i.row_pressures();
+        const std::vector<std::uint8_t> states = i.row_states();
         return i.surfaces->examination().results(
-            i.row_pressures().data(), i.rows.gap.data(), i.row_states().data());
+            pressures.data(), i.rows.gap.data(), states.data(),
+            late_force(pressures, states));
       }
 
       la::Vector pressure() const override
@@ -180,6 +183,20 @@ namespace abut::shim
         return !i.is_started || !abut_law_has_penalty(law) || is_closed
                    ? 0.
                    : progress.penalty;
+      }
+
+      /** [pairs] this rank's part of PairResult::late_force. */
+      std::vector<double>
+      late_force(const std::vector<double> &pressure,
+                 const std::vector<std::uint8_t> &state) const
+      {
+        std::vector<double> result(i.input.pairs.size(), 0.);
+        const std::vector<int> pair = i.surfaces->points().row_pairs();
+        for (const std::int32_t row : i.rows.late)
+          if (i.is_started && state[row] == ABUT_STATE_SLIP)
+            result[pair[row]] +=
+                i.rows.coefficients.weight(row) * pressure[row];
+        return result;
       }
 
       /** Add one row. */

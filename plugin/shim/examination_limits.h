@@ -34,6 +34,11 @@ namespace abut::shim
    * to the side without one, whatever else is there. */
   inline constexpr double visible_rotation = 0.05, visible_side_force = 0.02;
 
+  /** Part of the normal force at points that slip and have closed within a
+   * load step: the resultant of friction then changes by some 5 % with the
+   * number of steps. */
+  inline constexpr double visible_late_share = 0.2;
+
   /** Bodies in obstacles where no surface meets them, likewise. */
   inline constexpr double visible_inside = 0.01;
 

@@ -241,7 +241,8 @@ namespace abut::shim
   std::vector<PairResult<dim>>
   PairExamination<dim>::results(const double *row_pressure,
                                 const double *row_gap,
-                                const std::uint8_t *row_state) const
+                                const std::uint8_t *row_state,
+                                const std::vector<double> &late_force) const
   {
     std::vector<PairResult<dim>> results(pairs_.size());
     const NodePositions<dim> nodes(points_,
@@ -266,6 +267,7 @@ namespace abut::shim
       result.largest_tension = sum.largest_tension;
       result.penetration = sum.penetration;
       result.initial_gap_work = sum.initial_gap_work;
+      result.late_force = late_force[p];
       copy_forces(sum.secondary, result.secondary_force,
                   result.secondary_moment, result.present_moment);
       copy_forces(sum.primary, result.primary_force, result.primary_moment,
@@ -287,6 +289,8 @@ namespace abut::shim
       PairResult<dim> &result = results[p];
       if (std::isinf(result.least_pressure))
         result.least_pressure = 0.;
+      if (result.n_slipping == result.n_active)
+        result.late_force = 0.;
       if (pairs_[p].data.obstacle)
       {
         result.primary_force = -result.secondary_force;

@@ -41,10 +41,11 @@ namespace abut::shim
                                      const std::uint8_t *row_state) const;
 
     /** Results by pair for [rows] pressures, gaps and states (null: nothing
-     * solved). Collective. */
-    std::vector<PairResult<dim>> results(const double *row_pressure,
-                                         const double *row_gap,
-                                         const std::uint8_t *row_state) const;
+     * solved). @p late_force: [pairs] of this rank. Collective. */
+    std::vector<PairResult<dim>>
+    results(const double *row_pressure, const double *row_gap,
+            const std::uint8_t *row_state,
+            const std::vector<double> &late_force) const;
 
   private:
     /** Measure the rotation of directions since rows were made. Collective. */

@@ -3,6 +3,8 @@
 #include "pair_friction.h"
 
 #include "agree.h"
+#include "examination_limits.h"
+#include "short_text.h"
 
 #include <abut/friction_points.h>
 #include <abut/strategy.h>
@@ -280,6 +282,24 @@ namespace abut::shim
           abut_points_cover(points.handle(),
                             static_cast<std::int32_t>(marks.size()),
                             marks.data(), keep.data()));
+  }
+
+  Message late_contact(const std::string &pair, const double late,
+                       const double normal)
+  {
+    if (!(late > visible_late_share * normal))
+      return {};
+    const double share = late / normal;
+    return coded(
+        ABUT_FAILURE_LATE_CONTACT,
+        pair + ": " + percent(share) + " of the normal force (limit "
+            + percent(visible_late_share)
+            + ") is at points that slip and have closed within a load step. "
+              "They have the slip of the whole step, also from before they "
+              "closed, so that the zone of stick and the tractions depend on "
+              "the number of steps. Use more load steps while the contact "
+              "grows (Time stepping/Number of steps).",
+        {{"late share", share}, {"limit", visible_late_share}});
   }
 
   template <int dim>

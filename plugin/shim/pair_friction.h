@@ -28,6 +28,11 @@ namespace abut::shim
   void drop_covered(const PairPoints<dim> &points,
                     std::vector<std::uint8_t> &keep);
 
+  /** The warning where @p late of the normal force of a pair is at points that
+   * slip and were open at the start of a load step, see
+   * PairResult::late_force; or nothing. */
+  Message late_contact(const std::string &pair, double late, double normal);
+
   /** Add the effect of friction to results by pair: tractions stand in the
    * pressures of the tangents' rows, slips since the last commit in their gaps.
    * Collective. */

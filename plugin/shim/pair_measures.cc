@@ -51,6 +51,9 @@ namespace abut
         {"slipping", &R::n_slipping, sum, friction, "", "rows that slip"},
         {"normal_force", &R::normal_force, sum, friction, "force",
          "sum of the pressures"},
+        {"late_force", &R::late_force, sum, friction, "force",
+         "pressures of slipping points that were open at the start of the "
+         "step"},
         {"friction_force", &R::friction_force, sum, friction, "force",
          "sum of the magnitudes of the tangential tractions"},
         {"friction", &R::secondary_friction, sum, friction, "force",

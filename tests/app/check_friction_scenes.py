@@ -67,6 +67,35 @@ for mu in (0.01, 0.3):
              <= mu * summary["pair_1_normal_force"] * (1 + 1e-9),
              f"friction of a cone with friction {mu}")
 
+# A parabola pressed into a block in a few load steps. In one step all points
+# were open before, and those that slip have the share that their pressures, on
+# facets of the same size, have of all; half a facet is on the axis.
+late = p.source / "prm/failures/friction-late.prm"
+for steps, is_told in ((1, True), (2, True), (5, False)):
+    result = run(late, f"Time stepping/Number of steps={steps}")
+    p.expect(result.returncode == 0
+             and ("ABUT-F50: Pair 1" in result.stderr) == is_told,
+             f"pressed in {steps} steps: {result.stderr}")
+    summary = p.summary()
+    seen = summary["examination"]["pair_1_late_share"]
+    p.expect((seen["value"] > seen["warning_above"]) == is_told
+             and seen["code"] == "ABUT-F50", f"pressed in {steps} steps: {seen}")
+    if steps == 1:
+        points = [(row["pressure"] * (0.5 if row["x"] == 0 else 1.),
+                   row["status"]) for row in p.table("pair_1.csv")]
+        p.close(summary["pair_1_late_share"],
+                sum(force for force, status in points if status == 2)
+                / sum(force for force, status in points), 1e-6,
+                "force at points that slip and close in the only step")
+# All points slide: no step is too long for that.
+drag = ("Time stepping/Number of steps=1", "Time stepping/End time=1",
+        "Obstacle 1/Motion=0.05*t, -0.01*t")
+result = run(p.source / "prm/dragged-block.prm", *drag)
+summary = p.summary()
+p.expect(summary["pair_1_slipping"] == summary["pair_1_active"]
+         and summary["pair_1_late_share"] == 0
+         and "ABUT-F50" not in result.stderr, f"dragged: {result.stderr}")
+
 # Half a disc on another, pressed by P = 9.6 and pulled by more than mu P = 2.88
 # in the same step; and one on a smooth plane, with a moment about its centre,
 # through which all forces of contact pass.

@@ -215,6 +215,11 @@ namespace abut
     double shared_stick_force = 0.;
     /** With friction: sum of the pressures, force. */
     double normal_force = 0.;
+    /** The part of it at points that slip, and that were open at the last
+     * commit() and not as near as the nearest point of the pair, force >= 0.
+     * They have the slip of the whole step, also that from before they closed.
+     * 0 where all points slip: they do so in any steps. */
+    double late_force = 0.;
     /** Sum of the magnitudes of the tractions along the surface, force >= 0. */
     double friction_force = 0.;
     /** Resultant of the tractions along the surface on the secondary side; it

@@ -32,6 +32,9 @@ namespace abut::app
     /** With friction: taken up since the last load step, energy; and the sum of
      * the tractions along the surfaces, force. */
     double dissipation = 0., friction_force = 0.;
+    /** With friction, by pair: PairResult::late_force, and the part of the
+     * normal force that points which stick have by their number. */
+    std::vector<double> late_force, stick_force;
     /** What detection took since the result before, and the contact elements
      * that have changed since the last load step. */
     DetectionReport detection;

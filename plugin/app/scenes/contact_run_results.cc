@@ -203,13 +203,16 @@ namespace abut::app
     if (!model.allows_large_strain())
       for (const BodyMotion &motion : examination.motions)
         judge_rotation(motion, findings);
-    if (model.has_large_strain())
-      findings.erase(std::remove_if(findings.begin(), findings.end(),
-                                    [](const ContactFinding &finding) {
-                                      return finding.failure
-                                             == ABUT_FAILURE_LARGE_STRAIN;
-                                    }),
-                     findings.end());
+    // Points that close late are a matter of all load steps.
+    findings.erase(
+        std::remove_if(findings.begin(), findings.end(),
+                       [&](const ContactFinding &finding)
+                       {
+                         return finding.failure == ABUT_FAILURE_LATE_CONTACT
+                                || (finding.failure == ABUT_FAILURE_LARGE_STRAIN
+                                    && model.has_large_strain());
+                       }),
+        findings.end());
     for (const ContactFinding &found : model.examine_materials())
       findings.push_back(found);
     light_touches.sort(examination, state.load_steps.is_finished(),

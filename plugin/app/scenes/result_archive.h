@@ -52,6 +52,7 @@ namespace abut::app
     archive &r.cells &r.dofs &r.rows &r.active;
     archive &r.energy &r.force &r.penetration;
     archive &r.dissipation &r.friction_force &r.detection;
+    archive &r.late_force &r.stick_force;
     archive &r.errors &r.estimate &r.error_parts &r.seconds;
   }
 } // namespace abut::app

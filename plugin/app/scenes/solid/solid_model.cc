@@ -705,6 +705,12 @@ namespace abut::app
       {
         result.dissipation += pair.dissipation;
         result.friction_force += pair.friction_force;
+        result.late_force.push_back(pair.late_force);
+        result.stick_force.push_back(
+            pair.n_active > 0
+                ? pair.normal_force * double(pair.n_active - pair.n_slipping)
+                      / double(pair.n_active)
+                : 0.);
       }
       row["slipping"] = static_cast<double>(result.progress.n_slipping);
       row["friction_force"] = result.friction_force;

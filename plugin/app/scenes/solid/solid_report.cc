@@ -16,6 +16,7 @@
 #include "shim/by_element.h"
 #include "shim/cell_quadrature.h"
 #include "shim/examination_limits.h"
+#include "shim/pair_friction.h"
 
 #include <abut/dealii/pair_measures.h>
 
@@ -508,14 +509,42 @@ namespace abut::app
 
   template <int dim> void SolidReport<dim>::report_friction() const
   {
-    // The first load step is solved on several meshes.
     double dissipation = 0.;
+    // Friction of points that closed late lasts as long as points stick.
+    std::vector<double> late(pairs.pairs().size(), 0.);
     for (std::size_t i = 0; i < run.results.size(); ++i)
-      if (i + 1 == run.results.size()
-          || run.results[i + 1].load_step != run.results[i].load_step)
-        dissipation += run.results[i].dissipation;
+    {
+      const ContactResult &result = run.results[i];
+      // The first load step is solved on several meshes.
+      if (i + 1 < run.results.size()
+          && run.results[i + 1].load_step == result.load_step)
+        continue;
+      dissipation += result.dissipation;
+      for (std::size_t p = 0; p < late.size(); ++p)
+        late[p] = std::max(std::min(late[p], result.stick_force[p]),
+                           result.late_force[p]);
+    }
     report.set("dissipation", dissipation);
     report.set("friction_rung", run.results.back().progress.friction_rung);
+    const auto results = contact.results().pairs();
+    for (std::size_t p = 0; p < late.size() && !model.has_inertia(); ++p)
+      if (pairs.pairs()[p].friction != nullptr)
+        examine_late(p, late[p], results[p].normal_force);
+  }
+
+  template <int dim>
+  void SolidReport<dim>::examine_late(const std::size_t p, const double late,
+                                      const double normal) const
+  {
+    const std::string key = "pair_" + std::to_string(p + 1) + "_late_share";
+    const double share = normal > 0. ? late / normal : 0.;
+    report.set(key, share);
+    report.examined(key, share, shim::visible_late_share, no_limit,
+                    ABUT_FAILURE_LATE_CONTACT);
+    if (const Message text =
+            shim::late_contact(pairs.pairs()[p].name, late, normal);
+        !text.empty())
+      report.warn(text);
   }
 
   template <int dim> void SolidReport<dim>::report_detection() const
