@@ -101,6 +101,8 @@ extern "C"
     "facets that end where the load does; a finer mesh there")                 \
   X(LATE_CONTACT, 50, "points close late in a step with friction",             \
     "smaller load steps while the contact grows")                              \
+  X(OSCILLATION, 51, "pressures alternate from node to node",                  \
+    "the softer body as the secondary side; dual mortar; quadratic elements")  \
   X(UNSTABLE, 52, "an equilibrium that is unstable",                           \
     "a small disturbance, or the motion")
 

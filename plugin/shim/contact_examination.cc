@@ -219,6 +219,28 @@ namespace abut::shim
     }
 
     template <int dim>
+    void judge_oscillation(const PairResult<dim> &pair, const bool is_tied,
+                           const bool is_obstacle, Findings &findings)
+    {
+      if (pair.oscillation <= visible_oscillation)
+        return;
+      findings.add(
+          ABUT_FAILURE_OSCILLATION, false,
+          pair.name + ": " + percent(pair.oscillation) + " of the "
+              + (is_tied ? "traction" : "pressure")
+              + " alternates from node to node (limit "
+              + percent(visible_oscillation)
+              + "): its mean is that of the bodies, its values at single nodes "
+                "are those of the meshes. "
+              + (is_obstacle
+                     ? "Use smaller facets or quadratic elements there."
+                     : "Take the softer body as the secondary side, with "
+                       "dual mortar, or use quadratic elements."),
+          {{"alternating part", pair.oscillation},
+           {"limit", visible_oscillation}});
+    }
+
+    template <int dim>
     void judge_depths(const PairResult<dim> &pair, const double soft,
                       const bool has_penalty, const DepthScale &scale,
                       Findings &findings)
@@ -684,6 +706,7 @@ namespace abut::shim
                       i.input.pairs[p].secondary == i.input.pairs[p].primary,
                       surface_pairs[p].has_mean_gaps(), scale, findings);
       judge_rotation(pairs[p], allow_large_strain, findings);
+      judge_oscillation(pairs[p], i.input.pairs[p].tied, is_obstacle, findings);
       judge_depths(pairs[p], pairs[p].penetration - soft_on_purpose(i),
                    abut_law_has_penalty(i.input.method.options.law), scale,
                    findings);

@@ -39,6 +39,9 @@ namespace abut::shim
    * number of steps. */
   inline constexpr double visible_late_share = 0.2;
 
+  /** Part of a pressure that alternates from node to node. */
+  inline constexpr double visible_oscillation = 0.1;
+
   /** Bodies in obstacles where no surface meets them, likewise. */
   inline constexpr double visible_inside = 0.01;
 

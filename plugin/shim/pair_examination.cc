@@ -171,6 +171,10 @@ namespace abut::shim
         pair.measured.missed_depth =
             std::max(pair.measured.missed_depth, found.depth);
     }
+    const std::vector<double> oscillation =
+        oscillations(points_, row_pressure, row_state);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      pairs_[p].measured.oscillation = oscillation[p];
     for (SurfacePair<dim> &pair : pairs_)
       for (const auto &[error, place] : MPI::all_gather(
                host_.communicator,

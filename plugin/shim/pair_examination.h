@@ -85,6 +85,15 @@ namespace abut::shim
   double chord_error(const PairPoints<dim> &points, std::size_t pair,
                      const std::uint8_t *row_state, double least);
 
+  /** By pair: how much tractions alternate from node to node of the secondary,
+   * as the root mean square of the alternating part, at nodes that are closed
+   * with their neighbours up to the second, divided by that of the tractions at
+   * all closed nodes. Collective. */
+  template <int dim>
+  std::vector<double> oscillations(const PairPoints<dim> &points,
+                                   const double *row_pressure,
+                                   const std::uint8_t *row_state);
+
   /** Motion of closed rows since they were made. Collective. */
   template <int dim>
   std::vector<StepMotion> step_motion(PairPoints<dim> &points,

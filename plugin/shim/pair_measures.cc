@@ -48,6 +48,8 @@ namespace abut
          "distance of its node"},
         {"turn", &R::rotation, maximum, all, "radian",
          "mean rotation of the normals at constraints with pressure"},
+        {"oscillation", &R::oscillation, maximum, all, "",
+         "part of the pressure that alternates from node to node"},
         {"slipping", &R::n_slipping, sum, friction, "", "rows that slip"},
         {"normal_force", &R::normal_force, sum, friction, "force",
          "sum of the pressures"},

@@ -178,6 +178,18 @@ namespace abut::shim
       for_each_primary(point, function);
     }
 
+    /** Call function(node, share) for the nodes of the secondary that have a
+     * value of the row: its own, or those around a quadrature point. */
+    template <typename Function>
+    void for_each_share(const PointRow<dim> &row,
+                        const Function &function) const
+    {
+      if (row.place.node >= 0)
+        function(row.place.node, 1.);
+      else
+        for_each_secondary(row.point, function);
+    }
+
     /** Current positions of the nodes, and their displacements [nodes * dim],
      * where points of displaced pairs were made; empty if there are none. */
     const std::vector<dealii::Point<dim>> &present() const

@@ -25,12 +25,8 @@ namespace abut::shim
   void SurfaceFields<dim>::for_each_share_of(const PointRow<dim> &row,
                                              const Function &function) const
   {
-    if (row.place.node >= 0)
-      function(row, row.place.node, 1.);
-    else
-      points_.for_each_secondary(row.point,
-                                 [&](const NodeIndex node, const double share)
-                                 { function(row, node, share); });
+    points_.for_each_share(row, [&](const NodeIndex node, const double share)
+                           { function(row, node, share); });
   }
 
   template <int dim>
@@ -112,9 +108,12 @@ namespace abut::shim
             || lines.is_constrained(dof))
           continue;
         // An edge has two corners, the middle of a facet all.
-        std::vector<unsigned int> corners = {k - n, (k - n + 1) % n};
-        if (k == 2 * n)
-          corners = {0, 1, 2, 3};
+        std::vector<unsigned int> corners = {0, 1, 2, 3};
+        if (k < 2 * n)
+        {
+          const auto ends = corners_of_edge(facet.kind, k - n);
+          corners = {ends.first, ends.second};
+        }
         lines.add_line(dof);
         for (const unsigned int corner : corners)
           lines.add_entry(dof, surface_.nodes[facet.node[corner]].dof[d],

@@ -4,8 +4,22 @@
 
 #include "pair_points.h"
 
+#include <utility>
+
 namespace abut::shim
 {
+  /** Corners of an edge of a facet, whose middle is node k + corners. */
+  inline std::pair<unsigned int, unsigned int>
+  corners_of_edge(const abut_facet_kind kind, const unsigned int k)
+  {
+    const auto n = static_cast<unsigned int>(abut_facet_n_corners(kind));
+    if (n < 4)
+      return {k, (k + 1) % n};
+    constexpr std::pair<unsigned int, unsigned int> of_quadrilateral[] = {
+        {0, 2}, {1, 3}, {0, 1}, {2, 3}};
+    return of_quadrilateral[k];
+  }
+
   /** Values of the rows of points as fields on the unknowns, and back; see the
    * functions of RowSource. */
   template <int dim> class SurfaceFields

@@ -164,6 +164,10 @@ namespace abut
      * facets. */
     double missed_depth = 0.;
     double pressure = 0.; /**< largest */
+    /** Part of the tractions that alternates from node to node, by the last
+     * examine(): root mean squares, at nodes that are closed with their
+     * neighbours up to the second; 0 where there are none. */
+    double oscillation = 0.;
     /** Largest tension >= 0, force per area, where the law lets surfaces pull;
      * 0 for ties, whose tractions have any sign. */
     double largest_tension = 0.;

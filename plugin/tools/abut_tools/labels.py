@@ -145,6 +145,8 @@ PAIR = {
     "gap_error": ("largest error of a gap", "", "length"),
     "turn": ("mean rotation of the normals in contact", "", "radian"),
     "turned_force": ("force with rotated normals", "", "force"),
+    "oscillation": ("part of the pressure that alternates between nodes", "",
+                    ""),
     "normal_force": ("normal force", "", "force"),
     "friction": ("friction on the secondary surface", "", "force"),
     "friction_force": ("sum of tangential forces", "", "force"),

@@ -436,6 +436,9 @@ namespace abut::app
     report.examined(key + "turn", result.rotation, shim::visible_rotation,
                     model.allows_large_strain() ? no_limit : shim::useless,
                     ABUT_FAILURE_SLIDING);
+    report.examined(key + "oscillation", result.oscillation,
+                    shim::visible_oscillation, no_limit,
+                    ABUT_FAILURE_OSCILLATION);
     examine_zone(number, result);
   }
 

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Tractions that change their sign from node to node, which displacements do
+// not determine. d = p - mean of the neighbours is 0 for linear tractions and
+// has one sign where they are curved. Where d has the opposite sign of its own
+// mean over the neighbours, the tractions alternate. For p = c + a (-1)^i the
+// product of both is -4 a^2.
+#include "pair_examination.h"
+#include "surface_fields.h"
+
+#include <abut/strategy.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace abut::shim
+{
+  namespace MPI = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /** A node of a secondary surface. */
+    template <int dim> struct SurfaceNode
+    {
+      std::vector<NodeIndex> neighbours; ///< along edges of facets
+      /** [neighbours] Weights of a mean that has the value of linear functions
+       * at the node. */
+      std::vector<double> weights;
+      Direction<dim> traction, deviation;
+      double area = 0.;
+      bool is_inner = true;     ///< of the surface
+      bool is_closed = false;   ///< all of its points
+      bool is_measured = false; ///< whether it has a deviation
+    };
+
+    template <int dim>
+    using SurfaceNodes = std::map<NodeIndex, SurfaceNode<dim>>;
+
+    template <int dim>
+    SurfaceNodes<dim> connect(const ContactSurface<dim> &surface,
+                              const SurfacePair<dim> &pair)
+    {
+      SurfaceNodes<dim> nodes;
+      std::map<std::vector<NodeIndex>, unsigned int> borders;
+      const auto link = [&nodes](const NodeIndex a, const NodeIndex b)
+      {
+        nodes[a].neighbours.push_back(b);
+        nodes[b].neighbours.push_back(a);
+      };
+      for (const std::int32_t f : pair.secondary.facet)
+      {
+        const auto &facet = surface.facets[f];
+        const unsigned int n = abut_facet_n_corners(facet.kind),
+                           n_edges = dim == 2 ? 1 : n,
+                           n_nodes = pair.has_linear_multipliers()
+                                         ? n
+                                         : facet.n_nodes();
+        for (unsigned int k = 0; k < n_edges; ++k)
+        {
+          const auto ends = corners_of_edge(facet.kind, k);
+          const NodeIndex a = facet.node[ends.first],
+                          b = facet.node[ends.second];
+          std::vector<NodeIndex> edge = {a, b};
+          if (n_nodes > n)
+            edge.insert(edge.begin() + 1, facet.node[n + k]);
+          for (std::size_t e = 1; e < edge.size(); ++e)
+            link(edge[e - 1], edge[e]);
+          if (n_nodes > 2 * n)
+            link(edge[1], facet.node[2 * n]);
+          std::sort(edge.begin(), edge.end());
+          if (dim == 3)
+            ++borders[edge];
+          else
+            for (const NodeIndex end : {a, b})
+              ++borders[{end}];
+        }
+      }
+      for (const auto &[border, count] : borders)
+        for (const NodeIndex node : border)
+          nodes[node].is_inner = nodes[node].is_inner && count > 1;
+      for (auto &[number, node] : nodes)
+      {
+        auto &list = node.neighbours;
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+      }
+      return nodes;
+    }
+
+    /** Mean tractions of the points of nodes, with those of other ranks.
+     * Collective. */
+    template <int dim>
+    void add_tractions(const PairPoints<dim> &points, const std::size_t pair,
+                       const double *row_pressure,
+                       const std::uint8_t *row_state, SurfaceNodes<dim> &nodes)
+    {
+      const dealii::IndexSet &owned =
+          points.host().dof_handler.locally_owned_dofs();
+      const auto &surface = points.surface().nodes;
+      la::Vector force(owned, points.host().communicator), area(force),
+          open(force);
+      points.for_each_component(
+          [&](const PointRow<dim> &row)
+          {
+            if (row.place.pair != pair)
+              return;
+            const bool is_first = static_cast<std::size_t>(
+                                      points.view().component_start[row.point])
+                                  == row.row;
+            points.for_each_share(
+                row,
+                [&](const NodeIndex node, const double share)
+                {
+                  const double w = share * points.view().weight[row.point];
+                  for (unsigned int d = 0; d < dim; ++d)
+                    force(surface[node].dof[d]) +=
+                        w * row_pressure[row.row] * row.direction[d];
+                  if (is_first)
+                    area(surface[node].dof[0]) += w;
+                  if (row_state[row.row] == ABUT_STATE_OPEN)
+                    open(surface[node].dof[0]) += 1.;
+                });
+          });
+      std::vector<dealii::types::global_dof_index> others;
+      for (const auto &[number, node] : nodes)
+        for (const auto dof : surface[number].dof)
+          if (!owned.is_element(dof))
+            others.push_back(dof);
+      std::sort(others.begin(), others.end());
+      dealii::IndexSet needed(owned.size());
+      needed.add_indices(others.begin(), others.end());
+      const auto everywhere = [&](la::Vector &value)
+      {
+        value.compress(dealii::VectorOperation::add);
+        la::Vector result(owned, needed, points.host().communicator);
+        result = value;
+        return result;
+      };
+      const la::Vector forces = everywhere(force), areas = everywhere(area),
+                       counts = everywhere(open);
+      for (auto &[number, node] : nodes)
+      {
+        node.area = areas(surface[number].dof[0]);
+        node.is_closed = node.area > 0. && counts(surface[number].dof[0]) == 0.;
+        for (unsigned int d = 0; d < dim && node.is_closed; ++d)
+          node.traction[d] = forces(surface[number].dof[d]) / node.area;
+      }
+    }
+
+    /** Find SurfaceNode::weights: of the nearest linear function in the mean
+     * square, with inverse squares of the distances. */
+    template <int dim>
+    void find_weights(const ContactSurface<dim> &surface,
+                      const NodeIndex number, SurfaceNode<dim> &node)
+    {
+      std::vector<Direction<dim>> to;
+      Direction<dim> mean, slope;
+      dealii::SymmetricTensor<2, dim> spread;
+      for (const NodeIndex other : node.neighbours)
+      {
+        const Direction<dim> r =
+            surface.nodes[other].point - surface.nodes[number].point;
+        to.push_back(r);
+        node.weights.push_back(1. / r.norm_square());
+        mean += node.weights.back() * r;
+        spread += node.weights.back()
+                  * dealii::symmetrize(dealii::outer_product(r, r));
+      }
+      // The last direction is the surface's normal. Neighbours in line have
+      // one direction less.
+      constexpr double in_line = 1e-6;
+      const auto directions = dealii::eigenvectors(spread);
+      for (unsigned int d = 0; d + 1 < dim; ++d)
+        if (directions[d].first > in_line)
+          slope += mean * directions[d].second / directions[d].first
+                   * directions[d].second;
+      double sum = 0.;
+      for (std::size_t j = 0; j < to.size(); ++j)
+        sum += node.weights[j] *= 1. - slope * to[j];
+      for (double &weight : node.weights)
+        weight /= sum;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<double> oscillations(const PairPoints<dim> &points,
+                                   const double *row_pressure,
+                                   const std::uint8_t *row_state)
+  {
+    std::vector<double> result(points.pairs().size(), 0.);
+    for (std::size_t p = 0; p < result.size() && row_state != nullptr; ++p)
+    {
+      SurfaceNodes<dim> nodes = connect(points.surface(), points.pairs()[p]);
+      add_tractions(points, p, row_pressure, row_state, nodes);
+      const auto all = [&](const SurfaceNode<dim> &node, const auto property)
+      {
+        return node.*property
+               && std::all_of(node.neighbours.begin(), node.neighbours.end(),
+                              [&](const NodeIndex other)
+                              { return nodes.at(other).*property; });
+      };
+      const auto mean = [&](const SurfaceNode<dim> &node, const auto value)
+      {
+        Direction<dim> sum;
+        for (std::size_t j = 0; j < node.neighbours.size(); ++j)
+          sum += node.weights[j] * (nodes.at(node.neighbours[j]).*value);
+        return sum;
+      };
+      // Normals of neighbours that make a corner.
+      constexpr double cosine_at_corner = 0.85;
+      const auto is_corner = [&](const SurfaceNode<dim> &node)
+      {
+        return !points.pairs()[p].data.tied
+               && std::any_of(node.neighbours.begin(), node.neighbours.end(),
+                              [&](const NodeIndex other)
+                              {
+                                const auto &t = nodes.at(other).traction;
+                                return node.traction * t
+                                       < cosine_at_corner * node.traction.norm()
+                                             * t.norm();
+                              });
+      };
+      // Edges and corners of surfaces and edges of contact zones are steep, and
+      // so left out.
+      for (auto &[number, node] : nodes)
+        if (node.is_inner && all(node, &SurfaceNode<dim>::is_closed)
+            && !is_corner(node))
+        {
+          node.is_measured = true;
+          find_weights(points.surface(), number, node);
+          node.deviation =
+              node.traction - mean(node, &SurfaceNode<dim>::traction);
+        }
+      // Squares at the nodes that are measured and at all that are closed, and
+      // the areas of both; number of the former, fewer of which are no pattern.
+      constexpr double least_number = 3.;
+      double sums[5] = {0., 0., 0., 0., 0.};
+      for (const auto &[number, node] : nodes)
+        if (node.is_closed && points.set().is_owned(number))
+        {
+          sums[2] += node.area * node.traction.norm_square();
+          sums[3] += node.area;
+          if (!all(node, &SurfaceNode<dim>::is_measured))
+            continue;
+          const double product =
+              node.deviation * mean(node, &SurfaceNode<dim>::deviation);
+          sums[0] += node.area * std::max(0., -product) / 4.;
+          sums[1] += node.area;
+          sums[4] += 1.;
+        }
+      MPI::sum(sums, points.host().communicator, sums);
+      if (sums[4] >= least_number && sums[2] > 0.)
+        result[p] = std::sqrt(sums[0] / sums[1] / (sums[2] / sums[3]));
+    }
+    return result;
+  }
+
+  template std::vector<double>
+  oscillations(const PairPoints<2> &, const double *, const std::uint8_t *);
+  template std::vector<double>
+  oscillations(const PairPoints<3> &, const double *, const std::uint8_t *);
+} // namespace abut::shim

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The part of a pressure that alternates from node to node (F51), where the
+pressures of all nodes are known: a layer of cells h wide and 2 h high on a plane,
+without Poisson's effect, with all other displacements prescribed. Upper nodes go
+down by c + a cos(pi x/h). Along x, the mass and stiffness matrices of the cells
+multiply what alternates by h/3 and 4/h, constants by h and 0. So the force of a
+lower node in 2D is E/(2 h) h c from the constant and, with G = E/2,
+  -E/(2 h) h/3 a + G (2 h/6) (4/h) a = E a/2
+from the rest: pressures are E/(2 h) (c + a cos(pi x/h)). In 3D, with the product of
+two cosines, it is E h (-1/18 + 8/18) a, of E h/2 c: 7/9 of that part."""
+import math
+
+from program import Program
+
+p = Program()
+H = 0.125
+
+
+def layer(dimension, n, lift):
+    """The scene with n cells along each side; `lift`: a formula."""
+    axes = dimension - 1
+    ends = ", ".join([str(n * H)] * axes + [str(2 * H)])
+    cells = ", ".join([str(n)] * axes + ["1"])
+    zero = ", ".join(["0"] * axes)
+    top, bottom = 2 * axes + 1, 2 * axes
+    sides = "; ".join(f"{side}: {zero}, free" for side in range(2 * axes))
+    return p.write("layer.prm", f"""
+set Scene = solid
+set Dimension = {dimension}
+subsection Solid
+  set Pairs = 1
+  set Obstacles = 1
+end
+subsection Body 1
+  set Young modulus = 1000
+  set Poisson ratio = 0
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = {cells} : {zero}, 0 : {ends} : true
+  end
+  set Prescribed displacement = {top}: {zero}, -1e-6*({lift}); \
+                                {bottom}: {zero}, free
+end
+subsection Obstacle 1
+  set Kind = plane
+  set Point = {zero}, 0
+  set Normal = {zero}, 1
+end
+subsection Pair 1
+  set Secondary = 1: {bottom}
+  set Obstacle = 1
+end
+subsection Refinement
+  set Level = 0
+end
+subsection Output
+  set Fields = false
+  set Pictures = false
+end
+""")
+
+
+def oscillation(dimension, n, lift, warns, **options):
+    summary = p.run_scene(layer(dimension, n, lift), ranks=options.get("ranks", 0),
+                          words=["ABUT-F51"] if warns else [],
+                          without=[] if warns else ["ABUT-F51"])
+    p.expect(summary["active"] == summary["constraints"], f"open points: {lift}")
+    return summary["pair_1_oscillation"]
+
+
+def alternating(dimension):
+    return "*".join(f"cos(pi*{x}/{H})" for x in "xy"[:dimension - 1])
+
+
+# With an odd number of cells no product of the two parts is left in the mean
+# square over the surface.
+for dimension, n, factor in ((2, 9, 1.), (2, 21, 1.), (3, 7, 7 / 9)):
+    for part in (0.03, 0.12, 0.5):
+        a = factor * part
+        share = a / math.hypot(1, a)
+        for ranks in (0, 2) if part == 0.5 else (0,):
+            found = oscillation(dimension, n, f"1 + {part}*{alternating(dimension)}",
+                                share > 0.1, ranks=ranks)
+            p.close(found, share, 1e-8, f"{dimension}D, part {part}, {ranks} ranks")
+
+# Nothing alternates in these; the nodes at the ends, which have half a facet, are
+# not on the parabola of the others.
+for dimension, lift, limit in (
+        (2, "1", 1e-8), (2, "1 + 0.7*x", 1e-8), (2, "1 - 0.5*(x - 0.3)^2", 0.01),
+        (3, "1 - 0.3*x + 0.4*y", 1e-8), (3, "1 - 0.5*(x - 0.3)^2 - y^2", 0.01)):
+    p.below(oscillation(dimension, 8, lift, False), limit, lift)
+
+p.finish()
