@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -16,12 +17,12 @@ namespace abut::app
      * which on it is known. */
     constexpr double short_time = 5., least_part = 0.02;
 
+    /** 0: not a terminal, or the one that mpirun puts between a rank and its
+     * own output, which may be a file. */
     std::size_t columns_of_terminal()
     {
       winsize size = {};
-      const bool is_known =
-          ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-      return is_known ? size.ws_col : 80;
+      return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
     }
 
     std::string after(const double seconds)
@@ -55,7 +56,7 @@ namespace abut::app
   } // namespace
 
   ProgressLines::ProgressLines(const bool all)
-      : all(all), terminal(!all && isatty(STDOUT_FILENO) == 1)
+      : all(all), terminal(!all && columns_of_terminal() > 0)
   {
   }
 
@@ -82,8 +83,8 @@ namespace abut::app
   void ProgressLines::overwrite(const std::string &text)
   {
     // To the first column, and from the end of the text nothing.
-    std::cout << "\r" << text.substr(0, columns_of_terminal() - 1) << "\033[K"
-              << std::flush;
+    const std::size_t columns = std::max<std::size_t>(columns_of_terminal(), 2);
+    std::cout << "\r" << text.substr(0, columns - 1) << "\033[K" << std::flush;
     is_open = true;
   }
 
