@@ -11,8 +11,9 @@
 static const double fraction = 0.995;
 
 /* Relative errors of p g = mu: rough, to be finished by a tight solve,
- * finished, and finished if rounding prevents better. */
-static const double rough = 1, nearly = 1e-6, exact = 1e-12, rounding = 1e-3;
+ * finished, finished if rounding prevents better, and if gaps are rounding. */
+static const double rough = 1, nearly = 1e-6, exact = 1e-12, rounding = 1e-3,
+                    rounded_gap = 0.1;
 
 static void
 set_barrier(abut_strategy *s, double barrier)
@@ -163,10 +164,11 @@ moved(abut_strategy *s)
     return error <= rough ? next_barrier(s) : ask(s, false);
   const bool tight =
       s->request.linear_tolerance <= s->options.final_linear_tolerance;
-  if (full && tight
-      && (error <= exact || (error <= rounding && error > 0.1 * last_error)))
+  const bool is_stalled = (error <= rounding && error > 0.1 * last_error)
+                          || (error <= rounded_gap && error >= last_error);
+  if (full && tight && (error <= exact || is_stalled))
     return next_barrier(s);
-  return ask(s, full && error <= nearly);
+  return ask(s, full && (error <= nearly || is_stalled));
 }
 
 const abut_method abut_method_barrier = {begin, solved, moved};
