@@ -71,6 +71,14 @@ for i in range(4):
     p.close(steps[i]["p"], EXACT - error, 1e-12, f"multiplier {i}")
     p.close(steps[i]["lambda"], error - EXACT, 1e-12, f"lambda {i}")
     p.close(steps[i]["u"], H + error / K, 1e-12, f"augmented u {i}")
+# Each outer iteration ends with multipliers that are updated or accepted.
+result = p.call("run", p.source / "prm/point-mass.prm", "--output", "out",
+                *method("augmented lagrangian", "Penalty=10",
+                        "Adaptive penalty=false"))
+n_outer = int(max(row["outer"] for row in rows))
+p.expect(n_outer >= 4 and re.search(rf"outer iterations +{n_outer}\n",
+                                    result.stdout),
+         f"outer iterations {n_outer}: {result.stdout}")
 
 # Barrier at a fixed mu.
 for mu in (1, 0.1, 1e-4):
@@ -78,6 +86,12 @@ for mu in (1, 0.1, 1e-4):
     s = (-EXACT + math.sqrt(EXACT**2 + 4 * K * mu)) / (2 * K)
     p.close(u, H - s, 1e-12, f"barrier {mu} u")
     p.close(force, mu / s, 1e-12 if mu > 1e-3 else 1e-10, f"barrier {mu} p")
+
+# Gaps of few digits: 5e-13 and 5e-15 in coordinates of 1.
+for mu in (1e-12, 1e-14):
+    u, force, _ = solution("barrier", f"Barrier parameter={mu}")
+    p.close(u, H, mu, f"barrier {mu} u")
+    p.close(force, EXACT, mu, f"barrier {mu} p")
 
 # The barrier's first step is cut at 0.995 of the way from u = 0, s = 1 and p = mu
 # = 0.9 to the support. In full, (1 + 0.9) du = 3 - 0.9 and dp = 0.9 du.
@@ -175,6 +189,14 @@ result = p.call("run", "two.prm", "--output", "out",
                             "Method/Penalty factor=1e-6"]))
 p.expect(result.returncode == 0 and "ABUT-F06: Method/Penalty factor is 1e-06"
          in result.stderr, f"soft: {result.stderr}")
+result = p.call("run", p.source / "prm/point-mass.prm", "--output", "out",
+                *method("penalty", "Penalty factor=1e-20"))
+p.expect(result.returncode == 3
+         and set(re.findall(r"ABUT-F\d+", result.stderr)) == {"ABUT-F06"},
+         f"penalty of 1e-20: {result.stderr}")
+p.expect_error(p.call("run", p.source / "prm/point-mass.prm", "--set",
+                      "Masses/Stiffness=0"),
+               "Masses/Stiffness", "constraint 1", "spring")
 p.write("open.prm", """set Scene = point mass
 subsection Masses
   set Stiffness = 40

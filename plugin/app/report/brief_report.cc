@@ -59,6 +59,7 @@ namespace abut::app
         {"energy_loss", "energy lost by the time scheme"},
         {"kinetic_energy", "kinetic energy"},
         {"strain_energy", "strain energy"},
+        {"outer_iterations", "outer iterations"},
         {"l2_error", "error of the displacement, L2 norm"},
         {"h1_error", "error of the gradient, L2 norm"},
         {"energy_norm_error", "error in the energy norm"},

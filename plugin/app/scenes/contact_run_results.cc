@@ -275,6 +275,8 @@ namespace abut::app
     report.add_row(row);
     state.results.push_back(present);
     report.add("nonlinear_iterations", present.steps);
+    if (model.has_contact() && !abut_law_solves_once(state.method.options.law))
+      report.add("outer_iterations", present.progress.outer);
     if (!model.problem().is_linear())
       report.add("linearisations", present.linearisations);
     report.add("linear_iterations", present.linear.n_iterations);

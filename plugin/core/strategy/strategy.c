@@ -40,9 +40,10 @@ abut_reason_text(abut_reason reason)
 }
 
 /* Steps on one mesh after which a set that still moves has come a long way;
- * least eps of nitsche beside its default of 10 that can be stable. */
+ * least eps of nitsche beside its default of 10 that can be stable; least eps
+ * whose forces are not round-off of those of the bodies. */
 static const int32_t many_steps = 12;
-static const double least_stable = 1;
+static const double least_stable = 1, least_felt = 1e-15;
 
 static abut_failure
 failure_at_limit(const abut_law *law, const abut_progress *progress)
@@ -52,6 +53,8 @@ failure_at_limit(const abut_law *law, const abut_progress *progress)
   if (abut_law_needs_stress(law) && progress->penalty > 0
       && progress->penalty < least_stable)
     return ABUT_FAILURE_NITSCHE;
+  if (progress->penalty > 0 && progress->penalty < least_felt)
+    return ABUT_FAILURE_PENALTY;
   if (progress->fallback_steps > 0)
     return ABUT_FAILURE_CYCLE;
   return abut_law_solves_once(law) && progress->step > many_steps

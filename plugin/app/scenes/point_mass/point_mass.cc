@@ -212,6 +212,19 @@ namespace abut::app
         if (std::all_of(row.begin(), row.end(),
                         [](const double b) { return b == 0; }))
           throw InputError(rows_name, "a row is zero: its gap cannot change.");
+      for (std::size_t i = 0; i < model.rows.size(); ++i)
+      {
+        bool resists = false;
+        for (std::size_t j = 0; j < n; ++j)
+          resists = resists || (model.rows[i][j] != 0 && stiffness[j][j] > 0);
+        if (!resists)
+          throw InputError(stiffness_name,
+                           "constraint " + std::to_string(i + 1)
+                               + " acts on masses without a spring only: their "
+                                 "diagonal entries are 0, and contact is "
+                                 "scaled by them. Give one of these masses a "
+                                 "spring.");
+      }
       model.initial_gap = parse_vector(
           prm.get("Initial gap"), "Constraints/Initial gap", model.rows.size());
       model.equality = parse_kinds(prm.get("Kind"), model.rows.size());
@@ -377,6 +390,8 @@ namespace abut::app
       report.set("max_complementarity", complementarity);
       report.set("energy", model.energy(solution.displacement));
       report.set("nonlinear_iterations", solution.progress.step);
+      if (!abut_law_solves_once(method.options.law))
+        report.set("outer_iterations", solution.progress.outer);
       report.set("displacement", solution.displacement);
       report.set("lambda", lambda);
     }
