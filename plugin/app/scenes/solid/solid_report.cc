@@ -803,9 +803,9 @@ namespace abut::app
           short_number(100. * found.shear, 2)
               + " % of the strain energy is spurious shear of linear "
                 "elements, which cannot bend: displacements under loads "
-                "are too small by about this part, or forces at "
-                "prescribed displacements too large. Set Solid/Degree = "
-                "2, or give what bends more cells across its thickness.",
+                "are too small by up to this part, or forces at prescribed "
+                "displacements too large. Set Solid/Degree = 2, or refine: "
+                "cells must be short against the thickness in bending.",
           {{"part of the energy", found.shear}, {"limit", visible_stiffness}}));
     if (parameters.plane == PlaneModel::stress
         || poisson_ratio < least_locking_ratio)
