@@ -191,7 +191,10 @@ namespace abut::shim
                                    const std::uint8_t *row_state)
   {
     std::vector<double> result(points.pairs().size(), 0.);
-    for (std::size_t p = 0; p < result.size() && row_state != nullptr; ++p)
+    // A rank without rows has none of its own.
+    if (!MPI::logical_or(row_state != nullptr, points.host().communicator))
+      return result;
+    for (std::size_t p = 0; p < result.size(); ++p)
     {
       SurfaceNodes<dim> nodes = connect(points.surface(), points.pairs()[p]);
       add_tractions(points, p, row_pressure, row_state, nodes);

@@ -11,10 +11,10 @@ namespace abut::app
     constexpr int most_products = 1000;
 
     /** Part of the residual at which all of the spectrum has been seen. */
-    constexpr double seen = 1e-8;
+    constexpr double least_part = 1e-8;
 
     /** Curvatures, divided by those of the diagonal, that round-off makes. */
-    constexpr double round_off = 1e-12;
+    constexpr double least_curvature = 1e-12;
   } // namespace
 
   double negative_curvature(const la::Matrix &matrix,
@@ -48,15 +48,16 @@ namespace abut::app
     la::Vector z = scaled(residual, -1), p(z), product(z);
     double size = residual * z;
     const double first = size;
-    for (int k = 0; k < most_products && size > seen * seen * first; ++k)
+    for (int k = 0; k < most_products && size > least_part * least_part * first;
+         ++k)
     {
       matrix.vmult(product, p);
       hold(product);
       const double curvature = p * product;
       const double of_diagonal = p * scaled(p, 1);
-      if (curvature < -round_off * of_diagonal)
+      if (curvature < -least_curvature * of_diagonal)
         return curvature / of_diagonal;
-      if (curvature <= round_off * of_diagonal)
+      if (curvature <= least_curvature * of_diagonal)
         return 0.; // a free motion
       residual.add(-size / curvature, product);
       z = scaled(residual, -1);
