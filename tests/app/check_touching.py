@@ -47,6 +47,10 @@ def ladder(name, length, thickness, degrees, weight, mu, shift):
     return force
 
 
+def codes(result):
+    return set(re.findall(r"ABUT-F\d+", result.stderr))
+
+
 def run(scene, *settings):
     return p.call("run", scene, "--output", "out", "--quiet", *set_words(
         ["Output/Fields=false", "Output/Pictures=false", *settings]))
@@ -59,7 +63,8 @@ for number, shift in enumerate(SHIFTS):
              random.uniform(0.5, 2))
     wall = ladder("ladder.prm", *shape, 1.1, shift)
     result = run("ladder.prm")
-    p.expect(result.returncode == 0 and "ABUT-" not in result.stderr,
+    # Two bilinear elements do not bend: right in its resultants (F16).
+    p.expect(result.returncode == 0 and not codes(result) - {"ABUT-F16"},
              f"ladder {number} {shape} {shift}: {result.stderr}")
     summary = p.results()[0]
     # Shifts of 1e-6 tilt the body, linearised, by no first order of forces.
@@ -113,8 +118,7 @@ for number, mu in enumerate((0.05, 0.2, 0.4, 0.5, 0.9)):
         # The disc touches each plane with one node: right in its resultants,
         # not in its pressure.
         p.expect(result.returncode == 0
-                 and set(re.findall(r"ABUT-F\d+", result.stderr))
-                 == {"ABUT-F48"}, what)
+                 and codes(result) - {"ABUT-F16"} == {"ABUT-F48"}, what)
         summary = p.results()[0]
         (x1, y1), (x2, y2) = (summary[f"pair_{k}_force"] for k in (1, 2))
         r = math.sqrt(0.5)
