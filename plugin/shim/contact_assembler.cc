@@ -191,7 +191,7 @@ namespace abut
     // the number of unknowns is the same.
     i.abandon_iteration();
     i.start_displacement = la::Vector();
-    i.present_displacement = i.last_increment = la::Vector();
+    i.present_displacement = la::Vector();
     i.residual_check.clear(true);
     i.committed.leave_mesh();
     i.rows.slip_reference = {};
@@ -392,7 +392,6 @@ namespace abut
     if (i.request.action == ABUT_ACTION_MOVE && i.request.step_length != 1.)
       increment *= i.request.step_length;
     i.moving.apply_substitution(increment);
-    i.last_increment = increment;
     report.tolerance = tolerance;
     i.system.report += report;
     return report;
@@ -408,7 +407,6 @@ namespace abut
                 ExcMessage("Call solve() or add() before update()."));
     if (i.request.action == ABUT_ACTION_STOP)
       return false;
-    i.check_not_increment(displacement);
     i.present_displacement = displacement;
     i.moving.move_to(displacement);
     std::vector<double> before;

@@ -610,29 +610,9 @@ namespace abut::shim
     is_started = false;
     system.was_added = false;
     start_displacement = present_displacement = displacement;
-    last_increment = la::Vector();
     residual_check.clear();
     compute_gap(displacement);
     find_geometry();
-  }
-
-  template <int dim>
-  void
-  ContactProblem<dim>::check_not_increment(const la::Vector &displacement) const
-  {
-    if (last_increment.size() == 0)
-      return;
-    constexpr double round_off = 1e-12, visible = 1e-6;
-    la::Vector rest(displacement), before(present_displacement);
-    rest -= last_increment;
-    for (la::Vector *vector : {&rest, &before})
-      host.constraints().set_zero(*vector);
-    const double size = last_increment.linfty_norm();
-    AssertThrow(!(size > 0. && rest.linfty_norm() <= round_off * size
-                  && before.linfty_norm() > visible * size),
-                ExcMessage("The displacement given to update() is the "
-                           "increment of the last solve(). Add the increment "
-                           "to the displacement, and give it their sum."));
   }
 
   template <int dim>

@@ -202,9 +202,6 @@ namespace abut::shim
     /** Make what has been reached the start of the next iteration. */
     void start_from_present();
     void begin_at(const la::Vector &displacement);
-    /** Throw if the displacement of an update() is the increment of the last
-     * solve() alone. Collective. */
-    void check_not_increment(const la::Vector &displacement) const;
     /** Whether rows are where the bodies are. */
     bool moves() const;
     /** Pressures and states by the numbers of the rows. */
@@ -270,7 +267,6 @@ namespace abut::shim
     StartValues start;
     la::Vector start_displacement;
     la::Vector present_displacement; ///< of the last update()
-    la::Vector last_increment;       ///< of the last solve()
     Handle<abut_strategy> strategy;
     bool is_started = false;
     abut_request request = {};
