@@ -115,8 +115,6 @@ namespace abut::solve
   void CondensedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
-    parameters_ = parameters_on(space, parameters_);
-    choice_ = MultigridChoice(parameters_);
     step_ = space.kept->step;
     assembled_.reset();
     geometric_.reset();
@@ -161,7 +159,7 @@ namespace abut::solve
 
   bool CondensedSolver::is_direct() const
   {
-    return parameters_.is_direct(stiffness_->m(), space_.n_components);
+    return choice_.is_direct();
   }
 
   bool CondensedSolver::is_outdated() const
@@ -425,13 +423,13 @@ namespace abut::solve
   std::string CondensedSolver::method() const
   {
     if (is_direct())
-      return direct_method(DirectSolver::name(*stiffness_), space_);
+      return choice_.direct(DirectSolver::name(*stiffness_));
     return krylov_method() + ", " + preconditioner();
   }
 
   std::string CondensedSolver::preconditioner() const
   {
-    return choice_.name() + (filter_ ? " with contact filter" : "");
+    return choice_.preconditioner() + (filter_ ? " with contact filter" : "");
   }
 
   void CondensedSolver::find_friction()
@@ -527,8 +525,7 @@ namespace abut::solve
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
-      if (!keeper_.is_kept() && !choice_.is_geometric()
-          && !may_factorise(parameters_, stiffness_->m(), space_))
+      if (!keeper_.is_kept() && !choice_.may_give_up())
         throw_failure(krylov_method(), failure, tolerance);
     }
     report.n_matvecs += control.last_step() * (filter_ ? 2 : 0);
@@ -544,7 +541,7 @@ namespace abut::solve
     // A kept preconditioner may have become bad, and the coarser meshes may be
     // of no use: neither is worth waiting for.
     const double digits = std::log10(rhs.l2_norm() / tolerance);
-    while (keeper_.is_kept() || choice_.is_geometric())
+    while (!is_direct())
     {
       const unsigned int patience =
           keeper_.is_kept() ? keeper_.patience() : choice_.patience(digits);
@@ -560,16 +557,6 @@ namespace abut::solve
       report.setup_seconds += timer.wall_time();
       x = 0.;
     }
-    if (iterate(rhs, parameters_.max_iterations, digits, tolerance, x, report))
-      return;
-    const dealii::Timer timer;
-    factorise_from_now(parameters_, space_, parameters_.max_iterations);
-    choice_ = MultigridChoice(parameters_);
-    build();
-    report.method = method();
-    ++report.n_setups;
-    report.setup_seconds += timer.wall_time();
-    x = 0.;
     solve_directly(rhs, tolerance, x, report);
   }
 

@@ -115,7 +115,7 @@ namespace abut::solve
     unsigned int step_ = 0; ///< of its kept parts
     const la::Matrix *stiffness_ = nullptr;
     std::vector<double> row_stiffness_;
-    MultigridChoice choice_;
+    SolverChoice choice_;
 
     /** The matrix that the preconditioner was built on, with factors of direct
      * solvers, unless it is the stiffness. */

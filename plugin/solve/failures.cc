@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "failures.h"
 
-#include "kept_parts.h"
-
 #include <abut/dealii/coded.h>
 #include <abut/dealii/solver_parameters.h>
 
@@ -36,41 +34,6 @@ namespace abut::solve
                               {{"iterations", failure.last_step},
                                {"residual", failure.last_residual},
                                {"tolerance", tolerance}}));
-  }
-
-  bool may_factorise(const SolverParameters &parameters,
-                     const unsigned long long n_unknowns,
-                     const NearNullSpace &space)
-  {
-    // Times the number that `auto` factorises at once: slow, but an answer.
-    constexpr unsigned long long more = 10;
-    return parameters.linear == SolverParameters::Linear::automatic
-           && parameters.is_direct(n_unknowns / more, space.n_components);
-  }
-
-  void factorise_from_now(SolverParameters &parameters,
-                          const NearNullSpace &space,
-                          const unsigned int n_iterations)
-  {
-    parameters.linear = SolverParameters::Linear::direct;
-    space.kept->useless_iterations = n_iterations;
-  }
-
-  SolverParameters parameters_on(const NearNullSpace &space,
-                                 const SolverParameters &parameters)
-  {
-    SolverParameters result = parameters;
-    if (space.kept->useless_iterations > 0)
-      result.linear = SolverParameters::Linear::direct;
-    return result;
-  }
-
-  std::string direct_method(const std::string &name, const NearNullSpace &space)
-  {
-    const unsigned int n = space.kept->useless_iterations;
-    return n == 0 ? name
-                  : name + " (no solution after " + std::to_string(n)
-                        + " iterations)";
   }
 
   void check_direct_solution(const double before, const double after)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "geometric_multigrid.h"
+#include "kept_parts.h"
 
 #include <algorithm>
 #include <cstring>
@@ -236,31 +237,56 @@ namespace abut::solve
                && !parameters.is_direct(n_unknowns, n_components));
   }
 
-  void MultigridChoice::choose(const la::Matrix &matrix,
-                               const NearNullSpace &space, const bool is_faster)
+  void SolverChoice::choose(const la::Matrix &matrix,
+                            const NearNullSpace &space, const bool is_faster)
   {
+    n_unknowns_ = matrix.m();
+    n_components_ = space.n_components;
+    kept_ = space.kept;
     is_wanted_ =
-        wants_meshes(parameters_, matrix.m(), space.n_components)
+        wants_meshes(parameters_, n_unknowns_, n_components_)
         && (is_faster
             || parameters_.linear == SolverParameters::Linear::geometric);
     if (is_wanted_ && !is_given_up_)
       missing_ = why_not_geometric(matrix, space);
   }
 
-  unsigned int MultigridChoice::patience(const double digits) const
+  bool SolverChoice::is_direct() const
   {
+    return parameters_.is_direct(n_unknowns_, n_components_)
+           || (kept_ != nullptr && kept_->useless_iterations > 0);
+  }
+
+  unsigned int SolverChoice::patience(const double digits) const
+  {
+    if (!is_geometric())
+      return parameters_.max_iterations;
     const double most = 20. + std::max(digits, 0.) / slow;
     return std::min<double>(parameters_.max_iterations, most);
   }
 
-  void MultigridChoice::give_up(const unsigned int n_iterations)
+  bool SolverChoice::may_give_up() const
   {
+    // Times the number that `auto` factorises at once: slow, but an answer.
+    constexpr unsigned long long more = 10;
+    return is_geometric()
+           || (parameters_.linear == SolverParameters::Linear::automatic
+               && parameters_.is_direct(n_unknowns_ / more, n_components_));
+  }
+
+  void SolverChoice::give_up(const unsigned int n_iterations)
+  {
+    if (!is_geometric())
+    {
+      kept_->useless_iterations = n_iterations;
+      return;
+    }
     is_given_up_ = true;
     missing_ = "no solution after " + std::to_string(n_iterations)
                + " iterations with it";
   }
 
-  std::string MultigridChoice::name() const
+  std::string SolverChoice::preconditioner() const
   {
     if (is_geometric())
       return "geometric multigrid";
@@ -270,5 +296,13 @@ namespace abut::solve
                ? "algebraic multigrid (no geometric multigrid: " + missing_
                      + ")"
                : "algebraic multigrid";
+  }
+
+  std::string SolverChoice::direct(const std::string &name) const
+  {
+    const unsigned int n = kept_->useless_iterations;
+    return n == 0 ? name
+                  : name + " (no solution after " + std::to_string(n)
+                        + " iterations)";
   }
 } // namespace abut::solve

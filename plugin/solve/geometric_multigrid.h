@@ -81,38 +81,55 @@ namespace abut::solve
   bool wants_meshes(const SolverParameters &parameters,
                     unsigned long long n_unknowns, unsigned int n_components);
 
-  /** Which multigrid a solver takes: the geometric one where it is requested or
-   * is the faster one, until a system takes it too long. */
-  class MultigridChoice
+  /** The solver of the systems of a matrix: factors, or iterations with the
+   * geometric or the algebraic multigrid. The geometric one is taken where it
+   * is requested or is the faster one, until a system takes it too long.
+   * `Linear solver = auto` factorises systems that iterations do not solve, and
+   * remembers it for the mesh. */
+  class SolverChoice
   {
   public:
-    explicit MultigridChoice(const SolverParameters &parameters)
+    explicit SolverChoice(const SolverParameters &parameters)
         : parameters_(parameters)
     {
     }
 
-    /** Choose for a new matrix. @p is_faster: whether it is to be taken without
-     * a request. Collective. */
+    /** Choose for a new matrix. @p is_faster: whether the geometric multigrid
+     * is to be taken without a request. Collective. */
     void choose(const la::Matrix &matrix, const NearNullSpace &space,
                 bool is_faster = true);
 
+    bool is_direct() const;
+
     bool is_geometric() const
     {
-      return is_wanted_ && missing_.empty();
+      return !is_direct() && is_wanted_ && missing_.empty();
     }
 
-    /** Iterations for so many digits after which the geometric one is given
-     * up, as where cells are long or materials jump within coarse cells. */
+    /** Iterations for so many digits after which the choice is given up: few of
+     * the geometric one, as where cells are long or materials jump within
+     * coarse cells. */
     unsigned int patience(double digits) const;
 
-    /** Algebraic multigrid from now on, as that was not enough. */
+    /** Whether there is another one for systems that this does not solve; the
+     * last is a factorisation that is not much too large. */
+    bool may_give_up() const;
+
+    /** Take the next one from now on, as these iterations were not enough. */
     void give_up(unsigned int n_iterations);
 
     /** Name of the preconditioner. */
-    std::string name() const;
+    std::string preconditioner() const;
+
+    /** @p name of the direct solver, with the reason if it was not the first
+     * choice. */
+    std::string direct(const std::string &name) const;
 
   private:
     SolverParameters parameters_;
+    unsigned long long n_unknowns_ = 0;
+    unsigned int n_components_ = 0;
+    std::shared_ptr<KeptParts> kept_; ///< of the mesh
     bool is_wanted_ = false;
     bool is_given_up_ = false;
     std::string missing_; ///< why it is not taken, as the end of a sentence

@@ -45,8 +45,6 @@ namespace abut::solve
   void MaskedSolver::set_near_null_space(const NearNullSpace &space)
   {
     space_ = space;
-    parameters_ = parameters_on(space, parameters_);
-    choice_ = MultigridChoice(parameters_);
   }
 
   void MaskedSolver::reinit(const la::Matrix &matrix)
@@ -81,7 +79,7 @@ namespace abut::solve
 
   bool MaskedSolver::is_direct() const
   {
-    return parameters_.is_direct(matrix_->m(), space_.n_components);
+    return choice_.is_direct();
   }
 
   bool MaskedSolver::is_plain(const Mask &mask) const
@@ -231,8 +229,7 @@ namespace abut::solve
     catch (const dealii::SolverControl::NoConvergence &failure)
     {
       converged = false;
-      if (!choice_.is_geometric()
-          && !may_factorise(parameters_, matrix_->m(), space_))
+      if (!choice_.may_give_up())
         throw_failure("Conjugate gradients", failure, tolerance);
     }
     n_iterations = control.last_step();
@@ -248,21 +245,12 @@ namespace abut::solve
                                        LinearReport &report)
   {
     const double digits = std::log10(residual.l2_norm() / tolerance);
-    unsigned int most = choice_.is_geometric() ? choice_.patience(digits)
-                                               : parameters_.max_iterations;
     unsigned int n_iterations = 0;
-    while (!iterate(mask, residual, tolerance, most, correction, report,
-                    n_iterations))
+    while (!iterate(mask, residual, tolerance, choice_.patience(digits),
+                    correction, report, n_iterations))
     {
       const dealii::Timer timer;
-      if (choice_.is_geometric())
-        choice_.give_up(n_iterations);
-      else
-      {
-        factorise_from_now(parameters_, space_, n_iterations);
-        choice_ = MultigridChoice(parameters_);
-      }
-      most = parameters_.max_iterations;
+      choice_.give_up(n_iterations);
       geometric_.reset();
       build(mask);
       report.method = method();
@@ -323,8 +311,8 @@ namespace abut::solve
 
   std::string MaskedSolver::method() const
   {
-    return is_direct() ? direct_method(DirectSolver::name(*matrix_), space_)
-                       : "conjugate gradients, " + choice_.name();
+    return is_direct() ? choice_.direct(DirectSolver::name(*matrix_))
+                       : "conjugate gradients, " + choice_.preconditioner();
   }
 
   LinearReport MaskedSolver::solve(const Mask &mask, const la::Vector &rhs,

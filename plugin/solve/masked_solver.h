@@ -213,7 +213,7 @@ namespace abut::solve
     std::vector<std::uint8_t> cut_; ///< held unknowns of truncated_
     bool is_plain_ = false;         ///< built on K itself: nothing held, no D
     PreconditionerKeeper keeper_{1. / 3.};
-    MultigridChoice choice_;
+    SolverChoice choice_;
     std::unique_ptr<Multigrid> amg_;
     std::unique_ptr<GeometricMultigrid> geometric_;
     std::unique_ptr<DirectSolver> direct_;

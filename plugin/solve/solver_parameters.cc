@@ -34,8 +34,7 @@ namespace abut
         "refinement, for degree 1 and 2. auto: direct up to `Direct limit` "
         "unknowns, then geometric for symmetric tangents where it is possible, "
         "else iterative, and direct again where iterations have no solution, "
-        "up "
-        "to ten times that limit.");
+        "up to ten times that limit.");
     parameter::declare(prm, "Maximum iterations",
                        std::to_string(standard.max_iterations), Integer(1),
                        parameter::advanced("1", "2000"),

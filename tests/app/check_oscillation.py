@@ -10,6 +10,7 @@ from the rest: pressures are E/(2 h) (c + a cos(pi x/h)). In 3D, with the produc
 two cosines, it is E h (-1/18 + 8/18) a, of E h/2 c: 7/9 of that part."""
 import math
 
+from block_scene import block, section, solid
 from program import Program
 
 p = Program()
@@ -24,40 +25,17 @@ def layer(dimension, n, lift):
     zero = ", ".join(["0"] * axes)
     top, bottom = 2 * axes + 1, 2 * axes
     sides = "; ".join(f"{side}: {zero}, free" for side in range(2 * axes))
-    return p.write("layer.prm", f"""
-set Scene = solid
-set Dimension = {dimension}
-subsection Solid
-  set Pairs = 1
-  set Obstacles = 1
-end
-subsection Body 1
-  set Young modulus = 1000
-  set Poisson ratio = 0
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = {cells} : {zero}, 0 : {ends} : true
-  end
-  set Prescribed displacement = {top}: {zero}, -1e-6*({lift}); \
-                                {bottom}: {zero}, free
-end
-subsection Obstacle 1
-  set Kind = plane
-  set Point = {zero}, 0
-  set Normal = {zero}, 1
-end
-subsection Pair 1
-  set Secondary = 1: {bottom}
-  set Obstacle = 1
-end
-subsection Refinement
-  set Level = 0
-end
-subsection Output
-  set Fields = false
-  set Pictures = false
-end
-""")
+    return p.write("layer.prm", solid(
+        dimension,
+        block(1, f"{cells} : {zero}, 0 : {ends} : true",
+              f"{top}: {zero}, -1e-6*({lift}); {bottom}: {zero}, free",
+              more=("Young modulus = 1000", "Poisson ratio = 0")),
+        section("Obstacle 1", "Kind = plane", f"Point = {zero}, 0",
+                f"Normal = {zero}, 1"),
+        section("Pair 1", f"Secondary = 1: {bottom}", "Obstacle = 1"),
+        section("Refinement", "Level = 0"),
+        section("Output", "Fields = false", "Pictures = false"),
+        bodies=1, obstacles=1))
 
 
 def oscillation(dimension, n, lift, warns, **options):
