@@ -97,8 +97,8 @@ extern "C"
     "mortar; rounded ends; smaller load steps")                                \
   X(FEW_POINTS, 48, "few points in contact",                                   \
     "a finer mesh where the surfaces touch")                                   \
-  X(NARROW_LOAD, 49, "loads that change within facets",                        \
-    "facets that end where the load does; a finer mesh there")                 \
+  X(NARROW_LOAD, 49, "loads that change within facets or cells",               \
+    "cells that end where the load does; a finer mesh there")                  \
   X(LATE_CONTACT, 50, "points close late in a step with friction",             \
     "smaller load steps while the contact grows")                              \
   X(OSCILLATION, 51, "pressures alternate from node to node",                  \

@@ -486,13 +486,14 @@ namespace abut::shim
     {
       findings.add(ABUT_FAILURE_NO_PARTNER, true,
                    pair
-                       + ": nodes of the surface are inside of the obstacle by "
-                       + "up to " + compared(scale, found.depth)
-                       + ", and none has a constraint: the obstacle was out "
+                       + ": nodes of the surface are inside the obstacle by up "
+                         "to "
+                       + compared(scale, found.depth)
+                       + ", and no constraint stops them: the obstacle was out "
                          "of reach in detect(), and nodes have moved by "
                        + three_digits(found.motion)
-                       + " since. Give the pair a reach of that length, or "
-                         "call detect() at this displacement and solve on.",
+                       + " since. Give the pair at least that reach, or call "
+                         "detect() at this displacement and solve again.",
                    {{"depth", found.depth}, {"motion", found.motion}});
     }
 

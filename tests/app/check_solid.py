@@ -267,4 +267,31 @@ for name, body, more in (
     p.expect(result.returncode == 0 and "ABUT-F16" not in result.stderr,
              f"{name}: {result.stderr}")
 
+# Loads that end within cells: tractions and body forces in an eighth of a cell, whose
+# force is 0 at Gauss' points; half a cell; and formulas that cells resolve.
+def loaded(dim, load):
+    zero = ", ".join(["0"] * (dim - 1))
+    cells = ", ".join(["4"] * dim)
+    p.write("loaded.prm", solid(
+        dim, block(1, f"{cells} : {zero}, 0 : {zero.replace('0', '1')}, 1 : true",
+                   f"{2 * dim - 2}: {zero}, 0", more=("Young modulus = 1e4", load)),
+        section("Refinement", "Level = 0"), section("Output", "Fields = false"),
+        bodies=1, pairs=0))
+    result = p.call("run", "loaded.prm", "--output", "out", "--quiet")
+    p.expect(result.returncode == 0, f"{load}: {result.stderr}")
+    error = p.summary()["load_error"]
+    p.expect(("ABUT-F49" in result.stderr) == (error > 0.02), f"{load}: {result.stderr}")
+    return error
+
+
+for dim in (2, 3):
+    zero, top = ", ".join(["0"] * (dim - 1)), 2 * dim - 1
+    for load, error in (
+            (f"Traction = {top}: {zero}, if(x > 0.25 && x < 0.28125, 1, 0)", 1.),
+            (f"Body force = {zero}, if(x > 0.25 && x < 0.28125, 1, 0)", 1.),
+            (f"Body force = {zero}, if(x > 0.25 && x < 0.375, 1, 0)", 0.),
+            (f"Body force = {zero}, x^2", 0.),
+            (f"Pressure = {top}: sin(x)*exp(x)", 0.)):
+        p.close(1. + loaded(dim, load), 1. + error, 2e-3, f"{dim}: {load}")
+
 p.finish()

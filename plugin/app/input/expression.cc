@@ -311,6 +311,12 @@ namespace abut::app
     return components[component].constant;
   }
 
+  template <int dim> bool Expression<dim>::is_wholly_constant() const
+  {
+    return std::all_of(components.begin(), components.end(),
+                       [](const Component &c) { return c.constant; });
+  }
+
   template <int dim>
   bool Expression<dim>::is_zero(const unsigned int component) const
   {

@@ -66,6 +66,9 @@ namespace abut::app
     /** Whether the component depends on neither place nor time. */
     bool is_constant(unsigned int component = 0) const;
 
+    /** Whether no component depends on place or time. */
+    bool is_wholly_constant() const;
+
     /** Whether it is 0 everywhere and at all times, by its formula. */
     bool is_zero(unsigned int component = 0) const;
 

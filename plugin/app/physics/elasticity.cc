@@ -6,6 +6,7 @@
 #include "app/input/short_number.h"
 #include "cell_sum.h"
 #include "nodal_places.h"
+#include "shim/sampling.h"
 #include "shim/values_by_element.h"
 #include "stiffness_cache.h"
 
@@ -137,33 +138,54 @@ namespace abut::app
           }
     }
 
-    template <int dim> bool is_uniform(const Expression<dim> &function)
+    /** The same for the cells of this rank with a body force. */
+    template <int dim, typename Rule, typename Action>
+    void for_each_loaded_cell(const DiscreteProblem<dim> &problem,
+                              const ElasticData<dim> &data, const Rule &rule,
+                              const Action &action)
     {
-      for (unsigned int c = 0; c < function.n_components; ++c)
-        if (!function.is_constant(c))
-          return false;
-      return true;
+      const auto values_of = shim::cell_values(
+          problem.mapping, problem.dof_handler, rule,
+          dealii::update_values | dealii::update_quadrature_points
+              | dealii::update_JxW_values,
+          shim::ValuesOf::component);
+      std::vector<dealii::Tensor<1, dim>> forces;
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        const auto given = data.body_force.find(cell->material_id());
+        if (given == data.body_force.end())
+          continue;
+        dealii::FEValues<dim> &values = values_of.of(cell);
+        values.reinit(
+            static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
+                cell));
+        const auto &points = values.get_quadrature_points();
+        const Material<dim> &material = *data.materials.at(cell->material_id());
+        forces.resize(points.size());
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          const std::vector<double> f = given->second->evaluate(points, c);
+          for (unsigned int q = 0; q < points.size(); ++q)
+            forces[q][c] = f[q] * (values.JxW(q) * material.measure(points[q]));
+        }
+        action(cell, values, forces);
+      }
     }
 
-    /** Centres of 64 equal parts of an edge, of 256 of a face. */
-    template <int dim>
-    dealii::Quadrature<dim - 1>
-    many_points(const dealii::FiniteElement<dim> &fe)
+    /** Regular grid of points with equal weights in a cell or facet of
+     * dimension n_dim. */
+    template <int n_dim, int dim>
+    dealii::Quadrature<n_dim> grid(const dealii::FiniteElement<dim> &fe,
+                                   const unsigned int n_in_each_direction)
     {
-      const unsigned int n = dim == 2 ? 64 : 16;
-      if (dim == 2 || !shim::is_simplex(fe))
-        return dealii::QIterated<dim - 1>(dealii::QMidpoint<1>(), n);
-      std::vector<dealii::Point<dim - 1>> points;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; i + j < n; ++j)
-          for (const double shift : {1. / 3., 2. / 3.})
-            if (shift < 0.5 || i + j + 1 < n)
-            {
-              points.emplace_back();
-              points.back()[0] = (i + shift) / n;
-              points.back()[dim - 2] = (j + shift) / n;
-            }
-      return {points, std::vector<double>(points.size(), 0.5 / points.size())};
+      if (!shim::is_simplex(fe))
+        return dealii::QIterated<n_dim>(dealii::QMidpoint<1>(),
+                                        n_in_each_direction);
+      const auto points = shim::simplex_points<n_dim>(n_in_each_direction);
+      const double size = n_dim == 1 ? 1. : n_dim == 2 ? 1. / 2. : 1. / 6.;
+      return {points, std::vector<double>(points.size(), size / points.size())};
     }
 
     template <int dim>
@@ -323,117 +345,93 @@ namespace abut::app
   }
 
   template <int dim>
-  void Elasticity<dim>::add_volume_forces(const ElasticData<dim> &data,
-                                          la::Vector &load,
-                                          la::Vector &all) const
+  void Elasticity<dim>::add_forces(const ElasticData<dim> &data,
+                                   la::Vector &load, la::Vector &all) const
   {
-    const auto values_of = shim::cell_values(
-        this->mapping, this->dof_handler, shim::mass_rule<dim>,
-        dealii::update_values | dealii::update_quadrature_points
-            | dealii::update_JxW_values,
-        shim::ValuesOf::component);
     const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
     dealii::Vector<double> force;
     std::vector<global_dof_index> dofs;
-    for (const auto &cell : this->dof_handler.active_cell_iterators())
+    const auto add = [&](const auto &cell, const auto &values,
+                         const std::vector<dealii::Tensor<1, dim>> &forces)
     {
-      if (!cell->is_locally_owned())
-        continue;
-      const auto body = cell->material_id();
-      const auto given = data.body_force.find(body);
-      if (given == data.body_force.end())
-        continue;
-      dealii::FEValues<dim> &values = values_of.of(cell);
       const NodalPlaces<dim> &places = places_of.of(cell);
-      values.reinit(
-          static_cast<typename dealii::Triangulation<dim>::cell_iterator>(
-              cell));
-      const auto &points = values.get_quadrature_points();
-      const Material<dim> &material = *data.materials.at(body);
       shim::get_dofs(cell, dofs);
       force.reinit(dofs.size());
-      for (unsigned int c = 0; c < dim; ++c)
-      {
-        const std::vector<double> f = given->second->evaluate(points, c);
-        for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const double dx = values.JxW(q) * material.measure(points[q]);
+      for (unsigned int q = 0; q < forces.size(); ++q)
+        for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int i = 0; i < places.n_nodes(); ++i)
-            force(places(c, i)) += f[q] * dx * values.shape_value(i, q);
-        }
-      }
+            force(places(c, i)) += forces[q][c] * values.shape_value(i, q);
       versions::distribute_local_to_global(this->constraints, force, dofs,
                                            load);
       versions::distribute_local_to_global(this->hanging, force, dofs, all);
-    }
-  }
-
-  template <int dim>
-  void Elasticity<dim>::add_boundary_forces(const ElasticData<dim> &data,
-                                            la::Vector &load,
-                                            la::Vector &all) const
-  {
-    const shim::ByElement places_of(this->dof_handler, nodal_places<dim>);
-    dealii::Vector<double> force;
-    std::vector<global_dof_index> dofs;
-    for_each_loaded_face(
-        *this, data, shim::face_mass_rule<dim>,
-        [&](const auto &cell, const dealii::FEFaceValues<dim> &values,
-            const std::vector<dealii::Tensor<1, dim>> &forces)
-        {
-          const NodalPlaces<dim> &places = places_of.of(cell);
-          shim::get_dofs(cell, dofs);
-          force.reinit(dofs.size());
-          for (unsigned int q = 0; q < forces.size(); ++q)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int i = 0; i < places.n_nodes(); ++i)
-                force(places(c, i)) += forces[q][c] * values.shape_value(i, q);
-          versions::distribute_local_to_global(this->constraints, force, dofs,
-                                               load);
-          versions::distribute_local_to_global(this->hanging, force, dofs, all);
-        });
+    };
+    for_each_loaded_cell(*this, data, shim::mass_rule<dim>, add);
+    if (!data.tractions.empty() || !data.pressures.empty())
+      for_each_loaded_face(*this, data, shim::face_mass_rule<dim>, add);
   }
 
   template <int dim>
   std::optional<double>
   Elasticity<dim>::load_error(const ElasticData<dim> &data) const
   {
+    namespace MPI = dealii::Utilities::MPI;
     const auto varies = [](const auto &conditions)
     {
-      return std::any_of(conditions.begin(), conditions.end(),
-                         [](const auto &condition)
-                         { return !is_uniform(*condition.second.function); });
+      return std::any_of(
+          conditions.begin(), conditions.end(),
+          [](const auto &condition)
+          { return !condition.second.function->is_wholly_constant(); });
     };
-    if (!varies(data.tractions) && !varies(data.pressures))
-      return {};
+    const bool on_faces = varies(data.tractions) || varies(data.pressures),
+               in_cells =
+                   std::any_of(data.body_force.begin(), data.body_force.end(),
+                               [](const auto &force)
+                               { return !force.second->is_constant(); });
     double wrong = 0., whole = 0.;
-    const auto compare = [&]
+    const auto compare =
+        [&](const auto &for_each, const auto &rule, const auto dimension)
     {
+      constexpr int n_dim = decltype(dimension)::value;
       std::vector<dealii::Tensor<1, dim>> applied;
-      for_each_loaded_face(*this, data, shim::face_mass_rule<dim>,
-                           [&](const auto &, const auto &, const auto &forces)
-                           {
-                             applied.push_back(
-                                 std::accumulate(forces.begin(), forces.end(),
-                                                 dealii::Tensor<1, dim>()));
-                           });
-      std::size_t face = 0;
-      for_each_loaded_face(*this, data, many_points<dim>,
-                           [&](const auto &, const auto &, const auto &forces)
-                           {
-                             dealii::Tensor<1, dim> given;
-                             for (const dealii::Tensor<1, dim> &force : forces)
-                             {
-                               given += force;
-                               whole += force.norm();
-                             }
-                             wrong += (applied[face++] - given).norm();
-                           });
+      const auto note = [&](const auto &, const auto &, const auto &forces)
+      {
+        applied.push_back(std::accumulate(forces.begin(), forces.end(),
+                                          dealii::Tensor<1, dim>()));
+      };
+      collective(this->communicator, [&] { for_each(rule, note); });
+      const double n_loaded =
+          MPI::sum(double(applied.size()), this->communicator);
+      const unsigned int n_points =
+          std::clamp(shim::samples_per_direction(n_loaded, n_dim), 2u, 64u);
+      std::size_t place = 0;
+      const auto subtract = [&](const auto &, const auto &, const auto &forces)
+      {
+        dealii::Tensor<1, dim> given;
+        for (const dealii::Tensor<1, dim> &force : forces)
+        {
+          given += force;
+          whole += force.norm();
+        }
+        wrong += (applied[place++] - given).norm();
+      };
+      const auto many = [&](const dealii::FiniteElement<dim> &fe)
+      { return grid<n_dim>(fe, n_points); };
+      collective(this->communicator, [&] { for_each(many, subtract); });
     };
-    collective(this->communicator, compare);
-    wrong = dealii::Utilities::MPI::sum(wrong, this->communicator);
-    whole = dealii::Utilities::MPI::sum(whole, this->communicator);
-    return whole > 0. ? wrong / whole : 0.;
+    if (on_faces)
+      compare([&](const auto &rule, const auto &action)
+              { for_each_loaded_face(*this, data, rule, action); },
+              shim::face_mass_rule<dim>,
+              std::integral_constant<int, dim - 1>());
+    if (in_cells)
+      compare([&](const auto &rule, const auto &action)
+              { for_each_loaded_cell(*this, data, rule, action); },
+              shim::mass_rule<dim>, std::integral_constant<int, dim>());
+    if (!on_faces && !in_cells)
+      return {};
+    wrong = MPI::sum(wrong, this->communicator);
+    whole = MPI::sum(whole, this->communicator);
+    return whole > 0. ? wrong / whole : wrong > 0. ? 1. : 0.;
   }
 
   template <int dim>
@@ -462,13 +460,7 @@ namespace abut::app
   {
     la::Vector open = this->open_load();
     la::Vector all = this->open_load();
-    collective(this->communicator,
-               [&]
-               {
-                 add_volume_forces(data, open, all);
-                 if (!data.tractions.empty() || !data.pressures.empty())
-                   add_boundary_forces(data, open, all);
-               });
+    collective(this->communicator, [&] { add_forces(data, open, all); });
     const bool has_values = this->constraints.has_inhomogeneities();
     if (is_linear()
         && dealii::Utilities::MPI::logical_or(has_values, this->communicator))

@@ -89,10 +89,11 @@ namespace abut::app
      * displacements add. Collective. */
     void assemble_load(const ElasticData<dim> &data);
 
-    /** Difference between the forces of the formulas of tractions and pressures
-     * on each facet and those that its points add to the load, summed, over the
-     * sum of the former; none of constant formulas. Cost: 64 evaluations on
-     * an edge, 256 on a face. Collective. */
+    /** Difference between the forces of the formulas of tractions, pressures
+     * and body forces on each facet and cell and those that its points add to
+     * the load, summed, over the sum of the former, by 2 to 64 points in each
+     * direction, many where few are loaded; none where all are constant.
+     * Collective. */
     std::optional<double> load_error(const ElasticData<dim> &data) const;
 
     /** Internal minus external forces of a displacement (owned) at all
@@ -114,10 +115,8 @@ namespace abut::app
     Values support_values(const ElasticData<dim> &data) const;
     void prescribe(const ElasticData<dim> &data,
                    dealii::AffineConstraints<double> &constraints) const;
-    void add_volume_forces(const ElasticData<dim> &data, la::Vector &load,
-                           la::Vector &all) const;
-    void add_boundary_forces(const ElasticData<dim> &data, la::Vector &load,
-                             la::Vector &all) const;
+    void add_forces(const ElasticData<dim> &data, la::Vector &load,
+                    la::Vector &all) const;
     void add_support_forces(la::Vector &load) const;
     /** Internal forces by rules of hanging nodes alone, or of supports, too,
      * cell by cell. */

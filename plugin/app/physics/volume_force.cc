@@ -21,6 +21,12 @@ namespace abut::app
     return gravity != nullptr || own != nullptr;
   }
 
+  template <int dim> bool VolumeForce<dim>::is_constant() const
+  {
+    return (gravity == nullptr || gravity->is_wholly_constant())
+           && (own == nullptr || own->is_wholly_constant());
+  }
+
   template <int dim>
   double VolumeForce<dim>::value(const dealii::Point<dim> &point,
                                  const unsigned int component) const

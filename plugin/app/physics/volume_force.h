@@ -23,6 +23,9 @@ namespace abut::app
     /** Whether there is any force. */
     bool is_present() const;
 
+    /** Whether it depends on neither place nor time, by its formulas. */
+    bool is_constant() const;
+
     double value(const dealii::Point<dim> &point,
                  unsigned int component = 0) const override;
 

@@ -34,7 +34,7 @@ namespace abut::app
         {ABUT_FAILURE_FEW_POINTS,
          "Refinement/Adaptive cycles, or a larger Refinement/Level"},
         {ABUT_FAILURE_NARROW_LOAD,
-         "a mesh whose facets end where the load does, or a larger "
+         "a mesh whose cells end where the load does, or a larger "
          "Refinement/Level"},
         {ABUT_FAILURE_UNSTABLE,
          "a small Body N/Body force across, or Time stepping/Scheme = hht"}};

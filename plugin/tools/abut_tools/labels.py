@@ -160,7 +160,7 @@ PAIR = {
     "prescribed_share": ("share of their force", "", ""),
     "shared_stick_share": ("share of nodes in two contacts", "", ""),
     "initial_gap_work": ("work on initial gaps", "", "force·length"),
-    "load_error": ("force of loads that facets do not resolve", "", ""),
+    "load_error": ("force of loads that cells do not resolve", "", ""),
     "transfer_error": ("uniform pressure transferred to wrong nodes", "", ""),
 }
 

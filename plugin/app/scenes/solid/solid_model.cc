@@ -75,8 +75,8 @@ namespace abut::app
     if (parameters.bodies.size() > 1 && parameters.pairs.empty())
       run.report.warn("Solid/Pairs is 0: nothing keeps the "
                       + std::to_string(parameters.bodies.size())
-                      + " bodies from passing through each other. Give a pair "
-                        "of surfaces where bodies can touch.");
+                      + " bodies from passing through each other. Add a pair "
+                        "for surfaces that can touch.");
     driven.create_functions();
     const abut_time_scheme &scheme = parameters.time.scheme;
     if (motion && scheme.projects != 0 && scheme.contact_in_step != 0

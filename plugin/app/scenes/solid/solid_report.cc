@@ -158,11 +158,14 @@ namespace abut::app
     if (*error > visible_load_error)
       report.warn(coded(
           ABUT_FAILURE_NARROW_LOAD,
-          "Loads change within facets: " + short_number(100. * *error, 2)
-              + " % of the force of tractions and pressures is missing or "
-                "too much, because the formulas are taken at few points of a "
-                "facet. Let facets end where the load does, or refine there: "
-                "a larger Refinement/Level.",
+          "Loads change within facets or cells: "
+              + short_number(100. * *error, 3)
+              + " % of the force of tractions, pressures and body forces is "
+                "missing or too much (limit "
+              + short_number(100. * visible_load_error, 2)
+              + " %), as their formulas are evaluated at few points of each. "
+                "Let cells end where the load does, or refine there: a larger "
+                "Refinement/Level.",
           {{"part of the force", *error}, {"limit", visible_load_error}}));
   }
 
@@ -732,14 +735,13 @@ namespace abut::app
     if (curvature < 0.)
       report.warn(coded(
           ABUT_FAILURE_UNSTABLE,
-          "The equilibrium is unstable: there are displacements along which "
-          "the "
-          "energy falls (curvature "
+          "The equilibrium is unstable: along a displacement the stored energy "
+          "has the curvature "
               + short_number(curvature, 2)
-              + " of the diagonal's, limit 0). The bodies buckle under less "
-                "load. Disturb them, for instance by a small Body N/Body force "
-                "across, and compare; or compute the motion with Time "
-                "stepping/Scheme = hht.",
+              + ", divided by that of the stiffness' diagonal (limit 0). The "
+                "bodies buckle under a smaller load. Disturb them, for "
+                "instance by a small Body N/Body force across, and compare; or "
+                "compute the motion with Time stepping/Scheme = hht.",
           {{"curvature", curvature}, {"limit", 0.}}));
   }
 
@@ -757,17 +759,17 @@ namespace abut::app
       shim::get_dofs(cell, dofs);
       const NodalPlaces<dim> &places = places_of.of(cell);
       for (unsigned int node = 0; node < places.n_nodes(); ++node)
-      {
-        bool held = false;
-        for (const bool sets : {false, true})
+        // A node's unknowns are all of the same rank.
+        if (owned.is_element(dofs[places(0, node)]))
+        {
+          const auto entry = [&](const unsigned int c) -> std::uint8_t &
+          { return at_rest[owned.index_within_set(dofs[places(c, node)])]; };
+          bool held = false;
           for (unsigned int c = 0; c < dim; ++c)
-            if (const auto dof = dofs[places(c, node)]; owned.is_element(dof))
-            {
-              auto &entry = at_rest[owned.index_within_set(dof)];
-              held = held || entry;
-              entry = entry || (sets && held);
-            }
-      }
+            held = held || entry(c);
+          for (unsigned int c = 0; c < dim; ++c)
+            entry(c) = held;
+        }
     }
   }
 
@@ -808,10 +810,12 @@ namespace abut::app
     if (found.shear > visible_stiffness)
       report.warn(coded(
           ABUT_FAILURE_LOCKING,
-          short_number(100. * found.shear, 2)
+          short_number(100. * found.shear, 3)
               + " % of the strain energy is spurious shear of linear "
-                "elements, which cannot bend: displacements under loads "
-                "are too small by up to this part, or forces at prescribed "
+                "elements, which cannot bend (limit "
+              + short_number(100. * visible_stiffness, 2)
+              + " %): displacements under loads are too small by up to this "
+                "part, or forces at prescribed "
                 "displacements too large. Set Solid/Degree = 2, or refine: "
                 "cells must be short against the thickness in bending.",
           {{"part of the energy", found.shear}, {"limit", visible_stiffness}}));
