@@ -33,7 +33,7 @@ namespace abut::shim
     /** Initial overlap, in sizes of a facet, that is worth a word. */
     constexpr double large_overlap = 0.3;
     /** The same in thicknesses of the thinner body, of bodies that fly. */
-    constexpr double visible_part = 0.1;
+    constexpr double visible_depth = 0.1;
     /** Surfaces that meet on less of a facet's width are between nodes. */
     constexpr double narrow_zone = 0.5;
 
@@ -126,7 +126,7 @@ namespace abut::shim
           least_extent(host_.mapping, host_.dof_handler, pair.data.secondary),
           least_extent(host_.mapping, host_.dof_handler, pair.data.primary));
     const double body = pair.least_extent;
-    if (!is_large && (body == 0. || depth <= visible_part * body))
+    if (!is_large && (body == 0. || depth <= visible_depth * body))
       return "";
     const bool is_obstacle = pair.data.obstacle != nullptr;
     return coded(

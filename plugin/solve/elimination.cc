@@ -178,7 +178,7 @@ namespace abut::solve
       return lines;
     }
 
-    using Message = std::vector<std::pair<global_dof_index, double>>;
+    using PackedLines = std::vector<std::pair<global_dof_index, double>>;
 
     /** Each rank's pivots go to the ranks whose rows have entries for them:
      * with a symmetric pattern, the owners of the pivots' neighbours. A line is
@@ -191,7 +191,7 @@ namespace abut::solve
         return;
       const auto ends = la::row_ends(matrix);
       const la::LocalRows rows = la::local_rows(matrix);
-      std::map<unsigned int, Message> send;
+      std::map<unsigned int, PackedLines> send;
       for (int i = 0; i < rows.n_rows; ++i)
       {
         if (lines[i].empty())
@@ -206,7 +206,7 @@ namespace abut::solve
         ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
         for (const unsigned int rank : ranks)
         {
-          Message &message = send[rank];
+          PackedLines &message = send[rank];
           message.emplace_back(columns.global(i), lines[i].column.size());
           for (std::size_t k = 0; k < lines[i].column.size(); ++k)
             message.emplace_back(columns.global(lines[i].column[k]),

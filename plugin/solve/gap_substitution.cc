@@ -17,12 +17,12 @@ namespace abut::solve
   namespace
   {
     using Index = dealii::types::global_dof_index;
-    using SparseLine = std::map<Index, double>;
+    using LineByMotion = std::map<Index, double>;
 
     /** A row of R and of C = B + R, with its motion, a column of E. */
     struct Row
     {
-      SparseLine rest, whole;
+      LineByMotion rest, whole;
       std::vector<std::pair<Index, double>> motion;
     };
 
@@ -77,7 +77,7 @@ namespace abut::solve
 
     /** The entries of a line above round-off of the next linearisation. */
     std::vector<std::pair<Index, double>>
-    without_negligible(const SparseLine &line)
+    without_negligible(const LineByMotion &line)
     {
       constexpr double negligible = 1e-4;
       double largest = 0.;
@@ -122,7 +122,7 @@ namespace abut::solve
       std::vector<std::pair<std::size_t, double>> entries_;
     };
 
-    double by_motion(const SparseLine &line, const Row &of)
+    double by_motion(const LineByMotion &line, const Row &of)
     {
       double sum = 0.;
       for (const auto &[column, motion] : of.motion)
@@ -202,7 +202,7 @@ namespace abut::solve
     std::map<Index, Line> whole;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      SparseLine sum;
+      LineByMotion sum;
       for (const auto &[k, factor] : couplings.inverse(i))
         for (const auto &[column, value] : all[k].rest)
           sum[column] -= factor * value;
