@@ -294,4 +294,23 @@ for dim in (2, 3):
             (f"Pressure = {top}: sin(x)*exp(x)", 0.)):
         p.close(1. + loaded(dim, load), 1. + error, 2e-3, f"{dim}: {load}")
 
+# The same of membranes: body forces, and fluxes through the boundary.
+for load, error in (
+        ("Body force = if(x > 0.25 && x < 0.28125, -1, 0)", 1.),
+        ("Body force = if(x > 0.25 && x < 0.375, -1, 0)", 0.),
+        ("Body force = x^2 - 0.5", 0.),
+        ("Traction = 1: if(y > 0.25 && y < 0.28125, 1, 0)", 1.),
+        ("Traction = 1: sin(y)", 0.)):
+    p.write("membrane.prm", "set Scene = obstacle\nset Dimension = 2\n"
+            + section("Membrane", load, "Prescribed displacement = 0: 0")
+            + section("Mesh", "Generator = subdivided_hyper_rectangle",
+                      "Arguments = 4, 4 : 0, 0 : 1, 1 : true")
+            + section("Contact", "Obstacle = -10") + section("Refinement", "Level = 0")
+            + section("Output", "Fields = false"))
+    result = p.call("run", "membrane.prm", "--output", "out", "--quiet")
+    p.expect(result.returncode == 0, f"membrane, {load}: {result.stderr}")
+    p.close(1. + p.summary()["load_error"], 1. + error, 2e-3, f"membrane, {load}")
+    p.expect(("ABUT-F49" in result.stderr) == (error > 0.02),
+             f"membrane, {load}: {result.stderr}")
+
 p.finish()

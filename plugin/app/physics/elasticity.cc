@@ -5,14 +5,13 @@
 #include "app/input/input_error.h"
 #include "app/input/short_number.h"
 #include "cell_sum.h"
+#include "load_error.h"
 #include "nodal_places.h"
-#include "shim/sampling.h"
 #include "shim/values_by_element.h"
 #include "stiffness_cache.h"
 
 #include <abut/dealii/distribute.h>
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
@@ -21,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace abut::app
 {
@@ -172,20 +170,6 @@ namespace abut::app
         }
         action(cell, values, forces);
       }
-    }
-
-    /** Regular grid of points with equal weights in a cell or facet of
-     * dimension n_dim. */
-    template <int n_dim, int dim>
-    dealii::Quadrature<n_dim> grid(const dealii::FiniteElement<dim> &fe,
-                                   const unsigned int n_in_each_direction)
-    {
-      if (!shim::is_simplex(fe))
-        return dealii::QIterated<n_dim>(dealii::QMidpoint<1>(),
-                                        n_in_each_direction);
-      const auto points = shim::simplex_points<n_dim>(n_in_each_direction);
-      const double size = n_dim == 1 ? 1. : n_dim == 2 ? 1. / 2. : 1. / 6.;
-      return {points, std::vector<double>(points.size(), size / points.size())};
     }
 
     template <int dim>
@@ -374,7 +358,6 @@ namespace abut::app
   std::optional<double>
   Elasticity<dim>::load_error(const ElasticData<dim> &data) const
   {
-    namespace MPI = dealii::Utilities::MPI;
     const auto varies = [](const auto &conditions)
     {
       return std::any_of(
@@ -387,51 +370,23 @@ namespace abut::app
                    std::any_of(data.body_force.begin(), data.body_force.end(),
                                [](const auto &force)
                                { return !force.second->is_constant(); });
-    double wrong = 0., whole = 0.;
-    const auto compare =
-        [&](const auto &for_each, const auto &rule, const auto dimension)
+    LoadError error(this->communicator);
+    const auto with_forces = [](const auto &action)
     {
-      constexpr int n_dim = decltype(dimension)::value;
-      std::vector<dealii::Tensor<1, dim>> applied;
-      const auto note = [&](const auto &, const auto &, const auto &forces)
-      {
-        applied.push_back(std::accumulate(forces.begin(), forces.end(),
-                                          dealii::Tensor<1, dim>()));
-      };
-      collective(this->communicator, [&] { for_each(rule, note); });
-      const double n_loaded =
-          MPI::sum(double(applied.size()), this->communicator);
-      const unsigned int n_points =
-          std::clamp(shim::samples_per_direction(n_loaded, n_dim), 2u, 64u);
-      std::size_t place = 0;
-      const auto subtract = [&](const auto &, const auto &, const auto &forces)
-      {
-        dealii::Tensor<1, dim> given;
-        for (const dealii::Tensor<1, dim> &force : forces)
-        {
-          given += force;
-          whole += force.norm();
-        }
-        wrong += (applied[place++] - given).norm();
-      };
-      const auto many = [&](const dealii::FiniteElement<dim> &fe)
-      { return grid<n_dim>(fe, n_points); };
-      collective(this->communicator, [&] { for_each(many, subtract); });
+      return [&action](const auto &, const auto &, const auto &forces)
+      { action(forces); };
     };
     if (on_faces)
-      compare([&](const auto &rule, const auto &action)
-              { for_each_loaded_face(*this, data, rule, action); },
-              shim::face_mass_rule<dim>,
-              std::integral_constant<int, dim - 1>());
+      error.compare<dim - 1, dim>(
+          [&](const auto &rule, const auto &action)
+          { for_each_loaded_face(*this, data, rule, with_forces(action)); },
+          shim::face_mass_rule<dim>);
     if (in_cells)
-      compare([&](const auto &rule, const auto &action)
-              { for_each_loaded_cell(*this, data, rule, action); },
-              shim::mass_rule<dim>, std::integral_constant<int, dim>());
-    if (!on_faces && !in_cells)
-      return {};
-    wrong = MPI::sum(wrong, this->communicator);
-    whole = MPI::sum(whole, this->communicator);
-    return whole > 0. ? wrong / whole : wrong > 0. ? 1. : 0.;
+      error.compare<dim, dim>(
+          [&](const auto &rule, const auto &action)
+          { for_each_loaded_cell(*this, data, rule, with_forces(action)); },
+          shim::mass_rule<dim>);
+    return error.relative();
   }
 
   template <int dim>

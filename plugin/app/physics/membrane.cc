@@ -6,8 +6,10 @@
 #include "app/input/input_error.h"
 #include "cell_sum.h"
 #include "error_norms.h"
+#include "load_error.h"
 #include "shim/cell_quadrature.h"
 #include "shim/shifted_cells.h"
+#include "shim/values_by_element.h"
 
 #include <abut/dealii/distribute.h>
 
@@ -175,6 +177,22 @@ namespace abut::app
       dealii::FEFaceValues<dim> values;
       std::vector<double> flux;
     };
+
+    /** Values of @p f at the points of @p values times their weights, checked,
+     * as forces out of the plane. */
+    template <int dim, typename Values>
+    std::vector<dealii::Tensor<1, 1>> weighted(const dealii::Function<dim> &f,
+                                               const Values &values,
+                                               const char *parameter)
+    {
+      const auto &points = values.get_quadrature_points();
+      std::vector<double> at_points(points.size());
+      checked_values(f, points, parameter, at_points);
+      std::vector<dealii::Tensor<1, 1>> forces(points.size());
+      for (unsigned int q = 0; q < points.size(); ++q)
+        forces[q][0] = at_points[q] * values.JxW(q);
+      return forces;
+    }
   } // namespace
 
   template <int dim>
@@ -240,6 +258,50 @@ namespace abut::app
     closed += sum.loads();
     this->load.swap(closed);
     assembled = data;
+  }
+
+  template <int dim>
+  std::optional<double>
+  Membrane<dim>::load_error(const MembraneData<dim> &data) const
+  {
+    const auto flags =
+        dealii::update_quadrature_points | dealii::update_JxW_values;
+    const dealii::FiniteElement<dim> &fe = this->elements[0];
+    LoadError error(this->communicator);
+    if (!data.constant_load)
+      error.compare<dim, 1>(
+          [&](const auto &rule, const auto &action)
+          {
+            dealii::FEValues<dim> values(this->mapping, fe, rule(fe), flags);
+            for (const auto &cell : this->dof_handler.active_cell_iterators())
+              if (cell->is_locally_owned())
+              {
+                values.reinit(cell);
+                action(weighted(*data.load, values, "Membrane/Body force"));
+              }
+          },
+          shim::mass_rule<dim>);
+    if (!data.neumann.empty())
+      error.compare<dim - 1, 1>(
+          [&](const auto &rule, const auto &action)
+          {
+            dealii::FEFaceValues<dim> values(this->mapping, fe, rule(fe),
+                                             flags);
+            for (const auto &cell : this->dof_handler.active_cell_iterators())
+              for (const unsigned int f : cell->face_indices())
+              {
+                const auto flux =
+                    cell->is_locally_owned() && cell->face(f)->at_boundary()
+                        ? data.neumann.find(cell->face(f)->boundary_id())
+                        : data.neumann.end();
+                if (flux == data.neumann.end())
+                  continue;
+                values.reinit(cell, f);
+                action(weighted(*flux->second, values, "Membrane/Traction"));
+              }
+          },
+          shim::face_mass_rule<dim>);
+    return error.relative();
   }
 
   template <int dim> la::Vector Membrane<dim>::loads_at_supports() const

@@ -4,6 +4,8 @@
 
 #include "discrete_problem.h"
 
+#include <optional>
+
 namespace abut::app
 {
   /** Data of a membrane; functions must outlive it. */
@@ -49,6 +51,10 @@ namespace abut::app
 
     la::Vector stiffness_times(const la::Vector &u) const override;
     /** @} */
+
+    /** Force of loads and fluxes that their points miss or add, see LoadError;
+     * none where there is no formula with variables. Collective. */
+    std::optional<double> load_error(const MembraneData<dim> &data) const;
 
     /** Energy with the data of the last assemble(). Collective. */
     double energy(const la::Vector &u) const override;

@@ -27,6 +27,9 @@ namespace abut::app
      * deformed, and what tolerances leave of that of one that is unloaded. */
     constexpr double round_off_of_works = 1e-12;
 
+    /** Part of the force of loads that cells may miss. */
+    constexpr double visible_load_error = 0.02;
+
     /** Order below which an energy converges slowly: smooth data gives 2, the
      * corners of bodies some 1.4. */
     constexpr double slow_order = 1.25;
@@ -59,6 +62,27 @@ namespace abut::app
             + short_number(softest, 2) + " to " + short_number(stiffest, 2)
             + ". It is dimensionless: use auto.",
         {{"penalty", penalty}, {"least", softest}, {"largest", stiffest}}));
+  }
+
+  void diagnose_load_error(Report &report, const std::optional<double> error)
+  {
+    if (!error)
+      return;
+    report.set("load_error", *error);
+    report.examined("load_error", *error, visible_load_error, no_limit,
+                    ABUT_FAILURE_NARROW_LOAD);
+    if (*error > visible_load_error)
+      report.warn(coded(
+          ABUT_FAILURE_NARROW_LOAD,
+          "Loads change within facets or cells: "
+              + short_number(100. * *error, 3)
+              + " % of the force of tractions, pressures and body forces is "
+                "missing or too much (limit "
+              + short_number(100. * visible_load_error, 2)
+              + " %), as their formulas are evaluated at few points of each. "
+                "Let cells end where the load does, or refine there: a larger "
+                "Refinement/Level.",
+          {{"part of the force", *error}, {"limit", visible_load_error}}));
   }
 
   void report_estimate(Report &report, const double estimate, const double norm)

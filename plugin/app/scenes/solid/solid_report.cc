@@ -54,9 +54,6 @@ namespace abut::app
     /** Part of the energy that linear elements may add by being too stiff. */
     constexpr double visible_stiffness = 0.05;
 
-    /** Part of the loads that facets may miss. */
-    constexpr double visible_load_error = 0.02;
-
     /** Least and largest value on any rank. Collective. */
     std::vector<double> range_over_ranks(const double value,
                                          const MPI_Comm communicator)
@@ -144,29 +141,7 @@ namespace abut::app
       report.print("  obstacle " + std::to_string(o + 1) + ": loads" + at + ": "
                    + in_words(loads, false));
     }
-    report_load_error();
-  }
-
-  template <int dim> void SolidReport<dim>::report_load_error() const
-  {
-    const std::optional<double> error = elasticity.load_error(model.data);
-    if (!error)
-      return;
-    report.set("load_error", *error);
-    report.examined("load_error", *error, visible_load_error, no_limit,
-                    ABUT_FAILURE_NARROW_LOAD);
-    if (*error > visible_load_error)
-      report.warn(coded(
-          ABUT_FAILURE_NARROW_LOAD,
-          "Loads change within facets or cells: "
-              + short_number(100. * *error, 3)
-              + " % of the force of tractions, pressures and body forces is "
-                "missing or too much (limit "
-              + short_number(100. * visible_load_error, 2)
-              + " %), as their formulas are evaluated at few points of each. "
-                "Let cells end where the load does, or refine there: a larger "
-                "Refinement/Level.",
-          {{"part of the force", *error}, {"limit", visible_load_error}}));
+    diagnose_load_error(report, elasticity.load_error(model.data));
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
@@ -708,7 +683,7 @@ namespace abut::app
       diagnose_order(report, energies);
     diagnose_condition(report, condition, penalty);
     report_locking();
-    report_load_error();
+    diagnose_load_error(report, elasticity.load_error(model.data));
     if (model.has_large_strain() && !model.motion)
       report_stability();
   }

@@ -29,7 +29,6 @@ namespace abut::app
     void report_checks() const;
     /** Resultants of loads, so that a wrong sign shows before a run. */
     void report_loads() const;
-    void report_load_error() const;
     void report_points() const;
     la::Vector reactions() const;
     void report_reactions() const;
