@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes of two bodies that cannot be solved, or only with a warning, and what
 the program says; secondary and primary exchanged; load steps."""
+import math
+
 from block_scene import block, pair, section, solid
 from program import Program, set_words
 
@@ -293,6 +295,49 @@ for dim in (2, 3):
             (f"Body force = {zero}, x^2", 0.),
             (f"Pressure = {top}: sin(x)*exp(x)", 0.)):
         p.close(1. + loaded(dim, load), 1. + error, 2e-3, f"{dim}: {load}")
+
+# Displacements that are prescribed between nodes are 0 at nodes, and those of a wave are
+# interpolated.
+def pressed(dim, facets, formula):
+    zero = ", ".join(["0"] * (dim - 1))
+    cells = ", ".join([str(facets)] * (dim - 1) + ["1"])
+    p.write("pressed.prm", solid(
+        dim, block(1, f"{cells} : {zero}, 0 : {zero.replace('0', '1')}, 1 : true",
+                   f"{2 * dim - 2}: {zero}, 0; {2 * dim - 1}: {zero}, {formula}",
+                   more=("Young modulus = 1e4",)),
+        section("Refinement", "Level = 0"), section("Output", "Fields = false"),
+        bodies=1, pairs=0))
+    result = p.call("run", "pressed.prm", "--output", "out", "--quiet")
+    p.expect(result.returncode == 0, f"{formula}: {result.stderr}")
+    error = p.summary()["support_error"]
+    p.expect(("ABUT-F49" in result.stderr) == (error > 0.1), f"{formula}: {result.stderr}")
+    return error
+
+
+def interpolation_error(f, n, samples=4000):
+    """Integral of |f - interpolation of n linear pieces| over that of |f|."""
+    wrong = whole = 0.
+    for k in range(samples):
+        x = (k + 0.5) / samples
+        i = int(x * n)
+        s = x * n - i
+        line = (1. - s) * f(i / n) + s * f((i + 1) / n)
+        wrong += abs(line - f(x))
+        whole += abs(f(x))
+    return wrong / whole
+
+
+def wave(x):
+    return math.sin(2. * math.pi * x)
+
+
+for dim in (2, 3):
+    p.close(pressed(dim, 4, "if(x > 0.03 && x < 0.2, -0.001, 0)"), 1., 1e-9,
+            f"{dim}: pressed between nodes")
+    for n in (5, 7):
+        p.close(pressed(dim, n, "1e-3*sin(2*pi*x)"), interpolation_error(wave, n), 1e-2,
+                f"{dim}: a wave over {n} facets")
+    p.close(1. + pressed(dim, 4, "1e-3*(1+x)"), 1., 1e-9, f"{dim}: a plane")
 
 # The same of membranes: body forces, and fluxes through the boundary.
 for load, error in (

@@ -149,6 +149,13 @@ namespace abut::app
                        { return entry.expression->depends_on_time(); });
   }
 
+  template <int dim> bool BoundaryExpressions<dim>::is_constant() const
+  {
+    return std::all_of(entries.begin(), entries.end(),
+                       [](const Entry &entry)
+                       { return entry.expression->is_wholly_constant(); });
+  }
+
   template <int dim>
   std::set<Id>
   BoundaryExpressions<dim>::named(const BoundaryNames &existing) const

@@ -64,6 +64,9 @@ namespace abut::app
     /** Whether any formula depends on time. */
     bool depends_on_time() const;
 
+    /** Whether no formula has variables. */
+    bool is_constant() const;
+
     /** Ids that the list names themselves, not by `*`. Throws InputError for
      * words that are not among @p existing. */
     std::set<dealii::types::boundary_id>

@@ -9,6 +9,7 @@
 #include "nodal_places.h"
 #include "shim/values_by_element.h"
 #include "stiffness_cache.h"
+#include "support_error.h"
 
 #include <abut/dealii/distribute.h>
 
@@ -387,6 +388,17 @@ namespace abut::app
           { for_each_loaded_cell(*this, data, rule, with_forces(action)); },
           shim::mass_rule<dim>);
     return error.relative();
+  }
+
+  template <int dim>
+  std::optional<double>
+  Elasticity<dim>::support_error(const ElasticData<dim> &data) const
+  {
+    std::map<boundary_id, Prescribed<dim>> displacements;
+    for (const auto &[id, condition] : data.supports)
+      if (!condition.function->is_wholly_constant())
+        displacements[id] = {condition.function, condition.components};
+    return app::support_error(*this, displacements);
   }
 
   template <int dim>

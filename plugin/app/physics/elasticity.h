@@ -96,6 +96,9 @@ namespace abut::app
      * Collective. */
     std::optional<double> load_error(const ElasticData<dim> &data) const;
 
+    /** The same of prescribed displacements, see app::support_error(). */
+    std::optional<double> support_error(const ElasticData<dim> &data) const;
+
     /** Internal minus external forces of a displacement (owned) at all
      * unknowns but hanging ones, supported ones included: what supports and
      * contact have to hold. Needs assemble_load(). Collective. */

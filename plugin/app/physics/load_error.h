@@ -17,6 +17,19 @@
 
 namespace abut::app
 {
+  /** Regular grid of points with equal weights in a cell or facet of dimension
+   * n_dim, @p n in each direction. */
+  template <int n_dim, int dim>
+  dealii::Quadrature<n_dim> point_grid(const dealii::FiniteElement<dim> &fe,
+                                       const unsigned int n)
+  {
+    if (!shim::is_simplex(fe))
+      return dealii::QIterated<n_dim>(dealii::QMidpoint<1>(), n);
+    const auto points = shim::simplex_points<n_dim>(n);
+    const double size = n_dim == 1 ? 1. : n_dim == 2 ? 1. / 2. : 1. / 6.;
+    return {points, std::vector<double>(points.size(), size / points.size())};
+  }
+
   /** Force of loads that their quadrature points miss or add, found by
    * evaluating them at many points: a load that ends within a cell may be at
    * none, one or all of its points. */
@@ -57,7 +70,7 @@ namespace abut::app
                  [&]
                  {
                    for_each([&](const auto &fe)
-                            { return grid<n_dim>(fe, n_points); },
+                            { return point_grid<n_dim>(fe, n_points); },
                             subtract);
                  });
       any = true;
@@ -81,19 +94,6 @@ namespace abut::app
     {
       return std::accumulate(forces.begin(), forces.end(),
                              dealii::Tensor<1, dim>());
-    }
-
-    /** Regular grid of points with equal weights in a cell or facet of
-     * dimension n_dim. */
-    template <int n_dim, int dim>
-    static dealii::Quadrature<n_dim> grid(const dealii::FiniteElement<dim> &fe,
-                                          const unsigned int n)
-    {
-      if (!shim::is_simplex(fe))
-        return dealii::QIterated<n_dim>(dealii::QMidpoint<1>(), n);
-      const auto points = shim::simplex_points<n_dim>(n);
-      const double size = n_dim == 1 ? 1. : n_dim == 2 ? 1. / 2. : 1. / 6.;
-      return {points, std::vector<double>(points.size(), size / points.size())};
     }
 
     const MPI_Comm communicator;

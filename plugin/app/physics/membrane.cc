@@ -10,6 +10,7 @@
 #include "shim/cell_quadrature.h"
 #include "shim/shifted_cells.h"
 #include "shim/values_by_element.h"
+#include "support_error.h"
 
 #include <abut/dealii/distribute.h>
 
@@ -281,7 +282,7 @@ namespace abut::app
               }
           },
           shim::mass_rule<dim>);
-    if (!data.neumann.empty())
+    if (!data.constant_neumann)
       error.compare<dim - 1, 1>(
           [&](const auto &rule, const auto &action)
           {
@@ -302,6 +303,17 @@ namespace abut::app
           },
           shim::face_mass_rule<dim>);
     return error.relative();
+  }
+
+  template <int dim>
+  std::optional<double>
+  Membrane<dim>::support_error(const MembraneData<dim> &data) const
+  {
+    std::map<dealii::types::boundary_id, Prescribed<dim>> displacements;
+    if (!data.constant_dirichlet)
+      for (const auto &[id, function] : data.dirichlet)
+        displacements[id] = {function, dealii::ComponentMask(1, true)};
+    return app::support_error(*this, displacements);
   }
 
   template <int dim> la::Vector Membrane<dim>::loads_at_supports() const

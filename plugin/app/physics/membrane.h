@@ -15,6 +15,8 @@ namespace abut::app
     const dealii::Function<dim> *load = nullptr;         ///< f
     bool constant_conductivity = false; ///< k is the same everywhere
     bool constant_load = false;         ///< f is the same everywhere
+    bool constant_dirichlet = false;    ///< so are prescribed displacements
+    bool constant_neumann = false;      ///< and fluxes
     BoundaryFunctions<dim> dirichlet;
     BoundaryFunctions<dim> neumann;
   };
@@ -55,6 +57,9 @@ namespace abut::app
     /** Force of loads and fluxes that their points miss or add, see LoadError;
      * none where there is no formula with variables. Collective. */
     std::optional<double> load_error(const MembraneData<dim> &data) const;
+
+    /** The same of prescribed displacements, see app::support_error(). */
+    std::optional<double> support_error(const MembraneData<dim> &data) const;
 
     /** Energy with the data of the last assemble(). Collective. */
     double energy(const la::Vector &u) const override;

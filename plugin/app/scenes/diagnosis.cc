@@ -27,8 +27,9 @@ namespace abut::app
      * deformed, and what tolerances leave of that of one that is unloaded. */
     constexpr double round_off_of_works = 1e-12;
 
-    /** Part of the force of loads that cells may miss. */
-    constexpr double visible_load_error = 0.02;
+    /** Parts of the force of loads, and of prescribed displacements, that cells
+     * may miss. Nodes follow a wave with six facets. */
+    constexpr double visible_load_error = 0.02, visible_support_error = 0.1;
 
     /** Order below which an energy converges slowly: smooth data gives 2, the
      * corners of bodies some 1.4. */
@@ -64,25 +65,41 @@ namespace abut::app
         {{"penalty", penalty}, {"least", softest}, {"largest", stiffest}}));
   }
 
-  void diagnose_load_error(Report &report, const std::optional<double> error)
+  namespace
   {
-    if (!error)
-      return;
-    report.set("load_error", *error);
-    report.examined("load_error", *error, visible_load_error, no_limit,
-                    ABUT_FAILURE_NARROW_LOAD);
-    if (*error > visible_load_error)
-      report.warn(coded(
-          ABUT_FAILURE_NARROW_LOAD,
-          "Loads change within facets or cells: "
-              + short_number(100. * *error, 3)
-              + " % of the force of tractions, pressures and body forces is "
-                "missing or too much (limit "
-              + short_number(100. * visible_load_error, 2)
-              + " %), as their formulas are evaluated at few points of each. "
-                "Let cells end where the load does, or refine there: a larger "
-                "Refinement/Level.",
-          {{"part of the force", *error}, {"limit", visible_load_error}}));
+    /** A part of data that the mesh does not have. @p words around its per cent
+     * and the limit. */
+    void diagnose_part(Report &report, const std::string &name,
+                       const std::optional<double> part, const double limit,
+                       const std::string &before, const std::string &after)
+    {
+      if (!part)
+        return;
+      report.set(name, *part);
+      report.examined(name, *part, limit, no_limit, ABUT_FAILURE_NARROW_LOAD);
+      if (*part > limit)
+        report.warn(coded(ABUT_FAILURE_NARROW_LOAD,
+                          before + short_number(100. * *part, 3) + " % of "
+                              + after + " (limit "
+                              + short_number(100. * limit, 2)
+                              + " %). Let cells end where the formula changes, "
+                                "or refine there: a larger Refinement/Level.",
+                          {{"part", *part}, {"limit", limit}}));
+    }
+  } // namespace
+
+  void diagnose_data(Report &report, const std::optional<double> load_error,
+                     const std::optional<double> support_error)
+  {
+    diagnose_part(report, "load_error", load_error, visible_load_error,
+                  "Loads change within facets or cells: ",
+                  "the force of tractions, pressures and body forces is "
+                  "missing or too much, as their formulas are evaluated at few "
+                  "points of each");
+    diagnose_part(report, "support_error", support_error, visible_support_error,
+                  "Prescribed displacements change within facets: ",
+                  "them is missing or too much, as their formulas are "
+                  "evaluated at nodes");
   }
 
   void report_estimate(Report &report, const double estimate, const double norm)

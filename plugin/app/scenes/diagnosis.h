@@ -24,9 +24,11 @@ namespace abut::app
    * sensible range. */
   void diagnose_penalty(Report &report, const MethodParameters &method);
 
-  /** Of the force of loads that their points miss or add, as a part of it:
-   * whether loads change within cells. Nothing where there is no such part. */
-  void diagnose_load_error(Report &report, std::optional<double> error);
+  /** Of the force of loads that their points miss or add, and of the prescribed
+   * displacements that nodes do, as a part of them: whether formulas change
+   * within cells. Nothing where there is no such part. */
+  void diagnose_data(Report &report, std::optional<double> load_error,
+                     std::optional<double> support_error);
 
   /** The error estimate of a mesh into the summary; relative to the energy norm
    * of the solution where @p norm is not 0. */

@@ -97,6 +97,8 @@ namespace abut::app
     data.load = load.get();
     data.constant_conductivity = conductivity->is_constant();
     data.constant_load = load->is_constant();
+    data.constant_dirichlet = dirichlet->is_constant();
+    data.constant_neumann = neumann->is_constant();
     const std::set<dealii::types::boundary_id> prescribed =
         dirichlet->named(names);
     const auto refuse_prescribed =

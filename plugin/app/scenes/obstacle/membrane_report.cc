@@ -185,7 +185,8 @@ namespace abut::app
     report.set("search_rebuilds", 0);
     report.set("pairs", 0);
     report_errors(last);
-    diagnose_load_error(report, membrane.load_error(model.data));
+    diagnose_data(report, membrane.load_error(model.data),
+                  membrane.support_error(model.data));
     report.set("cells", last.cells);
     report.set("steps_on_last_level", last.steps);
     report.set("linear_iterations_on_last_level", last.linear.n_iterations);

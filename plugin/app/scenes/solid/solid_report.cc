@@ -141,7 +141,8 @@ namespace abut::app
       report.print("  obstacle " + std::to_string(o + 1) + ": loads" + at + ": "
                    + in_words(loads, false));
     }
-    diagnose_load_error(report, elasticity.load_error(model.data));
+    diagnose_data(report, elasticity.load_error(model.data),
+                  elasticity.support_error(model.data));
   }
 
   template <int dim> void SolidReport<dim>::report_points() const
@@ -683,7 +684,8 @@ namespace abut::app
       diagnose_order(report, energies);
     diagnose_condition(report, condition, penalty);
     report_locking();
-    diagnose_load_error(report, elasticity.load_error(model.data));
+    diagnose_data(report, elasticity.load_error(model.data),
+                  elasticity.support_error(model.data));
     if (model.has_large_strain() && !model.motion)
       report_stability();
   }
