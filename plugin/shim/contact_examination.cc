@@ -233,9 +233,12 @@ namespace abut::shim
               + "): its mean is that of the bodies, its values at single nodes "
                 "are those of the meshes. "
               + (is_obstacle
-                     ? "Use smaller facets or quadratic elements there."
+                     ? "Use smaller facets or quadratic elements there, or "
+                       "Element = mean dilatation where the body is nearly "
+                       "incompressible."
                      : "Take the softer body as the secondary side, with "
-                       "dual mortar, or use quadratic elements."),
+                       "dual mortar, let facets of curved surfaces match, or "
+                       "use quadratic elements."),
           {{"alternating part", pair.oscillation},
            {"limit", visible_oscillation}});
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Tractions that change their sign from node to node, which displacements do
-// not determine. d = p - mean of the neighbours is 0 for linear tractions and
-// has one sign where they are curved. Where d has the opposite sign of its own
-// mean over the neighbours, the tractions alternate. For p = c + a (-1)^i the
-// product of both is -4 a^2.
+// Tractions that change from node to node: displacements do not determine them,
+// or bodies touch at single nodes of facets that do not match. d = p - mean of
+// the neighbours is 0 for linear tractions and the same at neighbours where
+// they are evenly curved. For p = c + a (-1)^i it is 2 a (-1)^i, and 4 a (-1)^i
+// is its difference from its own mean over the neighbours.
 #include "pair_examination.h"
 #include "surface_fields.h"
 
@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace abut::shim
@@ -33,6 +34,7 @@ namespace abut::shim
       double area = 0.;
       bool is_inner = true;     ///< of the surface
       bool is_closed = false;   ///< all of its points
+      bool is_in_zone = false;  ///< closed, or open among closed ones
       bool is_measured = false; ///< whether it has a deviation
     };
 
@@ -90,18 +92,55 @@ namespace abut::shim
       return nodes;
     }
 
+    /** Values at nodes, of which each rank has a part. */
+    template <int dim> class NodeValues
+    {
+    public:
+      NodeValues(const PairPoints<dim> &points, const SurfaceNodes<dim> &nodes)
+          : owned(points.host().dof_handler.locally_owned_dofs()),
+            ghosts(owned.size()),
+            communicator(points.host().communicator)
+      {
+        std::vector<dealii::types::global_dof_index> others;
+        for (const auto &[number, node] : nodes)
+          for (const auto dof : points.surface().nodes[number].dof)
+            if (!owned.is_element(dof))
+              others.push_back(dof);
+        std::sort(others.begin(), others.end());
+        ghosts.add_indices(others.begin(), others.end());
+      }
+
+      /** Zeros, to add values to. */
+      la::Vector vector() const
+      {
+        return la::Vector(owned, communicator);
+      }
+
+      /** With what other ranks have added. Collective. */
+      la::Vector sum(la::Vector &value) const
+      {
+        value.compress(dealii::VectorOperation::add);
+        la::Vector result(owned, ghosts, communicator);
+        result = value;
+        return result;
+      }
+
+    private:
+      const dealii::IndexSet &owned;
+      dealii::IndexSet ghosts;
+      const MPI_Comm communicator;
+    };
+
     /** Mean tractions of the points of nodes, with those of other ranks.
      * Collective. */
     template <int dim>
     void add_tractions(const PairPoints<dim> &points, const std::size_t pair,
                        const double *row_pressure,
-                       const std::uint8_t *row_state, SurfaceNodes<dim> &nodes)
+                       const std::uint8_t *row_state,
+                       const NodeValues<dim> &values, SurfaceNodes<dim> &nodes)
     {
-      const dealii::IndexSet &owned =
-          points.host().dof_handler.locally_owned_dofs();
       const auto &surface = points.surface().nodes;
-      la::Vector force(owned, points.host().communicator), area(force),
-          open(force);
+      la::Vector force = values.vector(), area(force), open(force);
       points.for_each_component(
           [&](const PointRow<dim> &row)
           {
@@ -124,23 +163,8 @@ namespace abut::shim
                     open(surface[node].dof[0]) += 1.;
                 });
           });
-      std::vector<dealii::types::global_dof_index> others;
-      for (const auto &[number, node] : nodes)
-        for (const auto dof : surface[number].dof)
-          if (!owned.is_element(dof))
-            others.push_back(dof);
-      std::sort(others.begin(), others.end());
-      dealii::IndexSet needed(owned.size());
-      needed.add_indices(others.begin(), others.end());
-      const auto everywhere = [&](la::Vector &value)
-      {
-        value.compress(dealii::VectorOperation::add);
-        la::Vector result(owned, needed, points.host().communicator);
-        result = value;
-        return result;
-      };
-      const la::Vector forces = everywhere(force), areas = everywhere(area),
-                       counts = everywhere(open);
+      const la::Vector forces = values.sum(force), areas = values.sum(area),
+                       counts = values.sum(open);
       for (auto &[number, node] : nodes)
       {
         node.area = areas(surface[number].dof[0]);
@@ -148,6 +172,58 @@ namespace abut::shim
         for (unsigned int d = 0; d < dim && node.is_closed; ++d)
           node.traction[d] = forces(surface[number].dof[d]) / node.area;
       }
+    }
+
+    /** Find SurfaceNode::is_in_zone: gaps between closed nodes are filled by
+     * adding rings of nodes and taking as many away, but for open nodes that
+     * are connected to others outside; then the edge of the zone is taken away,
+     * where tractions are steep. Collective. */
+    template <int dim>
+    void find_zone(const PairPoints<dim> &points, const NodeValues<dim> &values,
+                   SurfaceNodes<dim> &nodes)
+    {
+      using Node = SurfaceNode<dim>;
+      const auto first_unknown = [&](const NodeIndex number)
+      { return points.surface().nodes[number].dof[0]; };
+      const auto repeat = [&](const int n, const auto &is_in)
+      {
+        for (int i = 0; i < n; ++i)
+        {
+          la::Vector marks = values.vector();
+          for (const auto &[number, node] : nodes)
+            if (points.set().is_owned(number) && is_in(node))
+              marks(first_unknown(number)) += 1.;
+          const la::Vector all = values.sum(marks);
+          for (auto &[number, node] : nodes)
+            node.is_in_zone = all(first_unknown(number)) > 0.;
+        }
+      };
+      const auto has_neighbour = [&](const Node &node, const auto &property)
+      {
+        return std::any_of(node.neighbours.begin(), node.neighbours.end(),
+                           [&](const NodeIndex other)
+                           { return property(nodes.at(other)); });
+      };
+      const auto is_inside = [](const Node &node) { return node.is_in_zone; };
+      const auto grown = [&](const Node &node)
+      { return is_inside(node) || has_neighbour(node, is_inside); };
+      const auto shrunk = [&](const Node &node) {
+        return is_inside(node) && !has_neighbour(node, std::not_fn(is_inside));
+      };
+      const auto enclosed = [&](const Node &node)
+      {
+        const auto is_outside = [&](const Node &other)
+        { return !other.is_closed && !(other.is_in_zone && node.is_inner); };
+        return is_inside(node)
+               && (node.is_closed || !has_neighbour(node, is_outside));
+      };
+      constexpr int n_rings = 4;
+      for (auto &[number, node] : nodes)
+        node.is_in_zone = node.is_closed;
+      repeat(n_rings, grown);
+      repeat(n_rings, shrunk);
+      repeat(n_rings, enclosed);
+      repeat(1, shrunk);
     }
 
     /** Find SurfaceNode::weights: of the nearest linear function in the mean
@@ -197,7 +273,9 @@ namespace abut::shim
     for (std::size_t p = 0; p < result.size(); ++p)
     {
       SurfaceNodes<dim> nodes = connect(points.surface(), points.pairs()[p]);
-      add_tractions(points, p, row_pressure, row_state, nodes);
+      const NodeValues<dim> values(points, nodes);
+      add_tractions(points, p, row_pressure, row_state, values, nodes);
+      find_zone(points, values, nodes);
       const auto all = [&](const SurfaceNode<dim> &node, const auto property)
       {
         return node.*property
@@ -229,7 +307,7 @@ namespace abut::shim
       // Edges and corners of surfaces and edges of contact zones are steep, and
       // so left out.
       for (auto &[number, node] : nodes)
-        if (node.is_inner && all(node, &SurfaceNode<dim>::is_closed)
+        if (node.is_inner && all(node, &SurfaceNode<dim>::is_in_zone)
             && !is_corner(node))
         {
           node.is_measured = true;
@@ -237,20 +315,20 @@ namespace abut::shim
           node.deviation =
               node.traction - mean(node, &SurfaceNode<dim>::traction);
         }
-      // Squares at the nodes that are measured and at all that are closed, and
+      // Squares at the nodes that are measured and at all of the zone, and
       // the areas of both; number of the former, fewer of which are no pattern.
       constexpr double least_number = 3.;
       double sums[5] = {0., 0., 0., 0., 0.};
       for (const auto &[number, node] : nodes)
-        if (node.is_closed && points.set().is_owned(number))
+        if (node.is_in_zone && points.set().is_owned(number))
         {
           sums[2] += node.area * node.traction.norm_square();
           sums[3] += node.area;
           if (!all(node, &SurfaceNode<dim>::is_measured))
             continue;
-          const double product =
-              node.deviation * mean(node, &SurfaceNode<dim>::deviation);
-          sums[0] += node.area * std::max(0., -product) / 4.;
+          const Direction<dim> change =
+              node.deviation - mean(node, &SurfaceNode<dim>::deviation);
+          sums[0] += node.area * change.norm_square() / 16.;
           sums[1] += node.area;
           sums[4] += 1.;
         }

@@ -62,10 +62,48 @@ for dimension, n, factor in ((2, 9, 1.), (2, 21, 1.), (3, 7, 7 / 9)):
             p.close(found, share, 1e-8, f"{dimension}D, part {part}, {ranks} ranks")
 
 # Nothing alternates in these; the nodes at the ends, which have half a facet, are
-# not on the parabola of the others.
+# not on the line or parabola of the others.
 for dimension, lift, limit in (
-        (2, "1", 1e-8), (2, "1 + 0.7*x", 1e-8), (2, "1 - 0.5*(x - 0.3)^2", 0.01),
-        (3, "1 - 0.3*x + 0.4*y", 1e-8), (3, "1 - 0.5*(x - 0.3)^2 - y^2", 0.01)):
+        (2, "1", 1e-8), (2, "1 + 0.7*x", 0.01), (2, "1 - 0.5*(x - 0.3)^2", 0.01),
+        (3, "1 - 0.3*x + 0.4*y", 0.01), (3, "1 - 0.5*(x - 0.3)^2 - y^2", 0.01)):
     p.below(oscillation(dimension, 8, lift, False), limit, lift)
+
+# Two rings with radii 1, 2 and 2, 3, pressed into each other by 0.001: Lame's pressure
+# in plane strain. Polygons that do not match touch at some of their nodes only.
+E, NU, A, B, C, OVERLAP = 1000., 0.3, 1., 2., 3., 1e-3
+LAME = OVERLAP * E / (1 - NU**2) / B / ((B**2 + A**2) / (B**2 - A**2)
+                                        + (C**2 + B**2) / (C**2 - B**2))
+
+
+def ring(number, inner, outer, cells):
+    return section(f"Body {number}",
+                   section("Mesh", "Generator = quarter_hyper_shell",
+                           f"Arguments = 0, 0 : {inner} : {outer} : {cells} : true"),
+                   f"Young modulus = {E}", f"Poisson ratio = {NU}",
+                   "Prescribed displacement = 2: 0, free; 3: free, 0")
+
+
+def press_fit(cells, level, warns, degree=1, ranks=0):
+    p.write("rings.prm", solid(
+        2, ring(1, A, B, 4), ring(2, B, C, cells),
+        section("Pair 1", "Secondary = 1: 1", "Primary = 2: 0",
+                f"Initial gap = {-OVERLAP}"),
+        section("Refinement", f"Level = {level}"),
+        section("Output", "Fields = false", "Pictures = false")))
+    summary = p.run_scene("rings.prm", (f"Solid/Degree={degree}",), ranks=ranks,
+                          words=["ABUT-F51"] if warns else [],
+                          without=[] if warns else ["ABUT-F51"])
+    error = summary["pair_1_pressure"] / LAME - 1
+    p.expect((abs(error) > 0.2) == warns, f"{cells} cells, level {level}: {error}")
+    return error, summary["pair_1_oscillation"]
+
+
+for ranks in (0, 2):
+    p.close(press_fit(6, 4, True, ranks=ranks)[1], math.sqrt(0.5), 1e-3, "every other node")
+for cells, level in ((3, 3), (3, 4), (5, 4), (5, 5), (7, 4), (9, 3)):
+    press_fit(cells, level, True)
+for cells in (4, 8):
+    p.below(press_fit(cells, 4, False)[1], 1e-3, f"{cells} cells match")
+p.below(abs(press_fit(6, 3, False, degree=2)[0]), 1e-4, "quadratic rings")
 
 p.finish()
