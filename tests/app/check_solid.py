@@ -358,4 +358,19 @@ for load, error in (
     p.expect(("ABUT-F49" in result.stderr) == (error > 0.02),
              f"membrane, {load}: {result.stderr}")
 
+# Conditions that choose faces of the coarse mesh, here four on each side: 30 % of the
+# upper side has half a face too little; y > 0.9 is also true on parts of other sides.
+for condition, words in (("x < 0.3 && y > 0.999", ["changes within faces", "20 % of the area"]),
+                         ("x < 0.5 && y > 0.999", []), ("y > 0.9", [])):
+    p.write("ids.prm", solid(
+        2, block(1, "4, 4 : 0, 0 : 1, 1 : true", "2: 0, 0",
+                 f"Boundary ids = 5: {condition}",
+                 more=("Young modulus = 1e4", "Pressure = 5: 1")),
+        section("Refinement", "Level = 1"), section("Output", "Fields = false"),
+        bodies=1, pairs=0))
+    result = p.call("run", "ids.prm", "--output", "out", "--quiet")
+    p.expect(result.returncode == 0 and ("warning" in result.stderr) == bool(words)
+             and all(word in result.stderr for word in words),
+             f"{condition}: {result.stderr}")
+
 p.finish()

@@ -251,6 +251,8 @@ namespace abut::app
         of_simplices.insert(body);
       for (const std::string &warning : extras.warnings)
         of_files.push_back(parameters[body].mesh.section + "/File: " + warning);
+      for (const std::string &warning : extras.boundary_warnings)
+        of_files.push_back(warning);
       if constexpr (dim == 2)
         if (of_revolution)
           check_axis(parameters[body].mesh, coarse.meshes[body]);

@@ -10,9 +10,11 @@
 #include "app/input/input_error.h"
 #include "app/input/number_text.h"
 #include "app/input/parameters.h"
+#include "app/input/short_number.h"
 #include "generator_arguments.h"
 #include "mesh_checks.h"
 #include "mesh_file.h"
+#include "shim/sampling.h"
 
 #include <abut/dealii/parameter_entry.h>
 #include <abut/dealii/text_pattern.h>
@@ -307,8 +309,9 @@ namespace abut::app
       check_cells(parameters.section
                       + (parameters.move.empty() ? "/Scale" : "/Move"),
                   placed);
-      set_boundary_ids(parameters.boundary_ids,
-                       parameters.section + "/Boundary ids", placed);
+      extras.boundary_warnings =
+          set_boundary_ids(parameters.boundary_ids,
+                           parameters.section + "/Boundary ids", placed);
       for (const dealii::types::manifold_id id : reference->get_manifold_ids())
         if (id != dealii::numbers::flat_manifold_id)
           placed.set_manifold(id,
@@ -379,10 +382,88 @@ namespace abut::app
     return 0.5 * extent;
   }
 
-  template <int dim>
-  void set_boundary_ids(const std::string &text, const std::string &parameter,
-                        dealii::Triangulation<dim> &triangulation)
+  namespace
   {
+    /** A boundary face and the part of it where a condition is true. */
+    template <int dim> struct FacePart
+    {
+      dealii::Tensor<1, dim> normal; ///< of a plane face
+      double size = 0., part = 0.;
+      bool is_chosen = false; ///< by the centre
+    };
+
+    /** @p n points in each direction. */
+    template <int dim, typename Face>
+    FacePart<dim> part_of(const Face &face, const Expression<dim> &condition,
+                          const unsigned int n)
+    {
+      const bool is_triangle = dim == 3 && face->n_vertices() == 3;
+      FacePart<dim> result;
+      unsigned int n_points = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < (dim == 2 ? 1 : n); ++j)
+        {
+          const double s = (i + 0.5) / n, t = (j + 0.5) / n;
+          if (is_triangle && s + t > 1.)
+            continue;
+          dealii::Point<dim> x = face->vertex(0);
+          x += s * (face->vertex(1) - face->vertex(0));
+          if (dim == 3)
+            x += t * (face->vertex(2) - face->vertex(0));
+          if (dim == 3 && !is_triangle)
+            x += s * t
+                 * (face->vertex(3) - face->vertex(2) - face->vertex(1)
+                    + face->vertex(0));
+          ++n_points;
+          result.part += condition.value(x) > 0 ? 1. : 0.;
+        }
+      result.part /= n_points;
+      result.size = face->measure();
+      result.is_chosen = condition.value(face->center()) > 0;
+      const dealii::Tensor<1, dim> edge = face->vertex(1) - face->vertex(0);
+      if constexpr (dim == 2)
+        result.normal = dealii::cross_product_2d(edge);
+      else
+        result.normal =
+            dealii::cross_product_3d(edge, face->vertex(2) - face->vertex(0));
+      result.normal /= result.normal.norm();
+      return result;
+    }
+
+    /** Area that faces as a whole have too much or too little, as a part of
+     * that of the chosen ones. A condition may be true on sides that it is not
+     * about, as y > 0.9 is: so others count if they are parallel to a chosen
+     * one. */
+    template <int dim>
+    double wrong_part(const std::vector<FacePart<dim>> &faces)
+    {
+      constexpr double cosine_of_parallel = 0.98;
+      double chosen = 0., wrong = 0.;
+      for (const FacePart<dim> &face : faces)
+        if (face.is_chosen)
+        {
+          chosen += face.size;
+          wrong += (1. - face.part) * face.size;
+        }
+        else if (face.part > 0.
+                 && std::any_of(faces.begin(), faces.end(),
+                                [&](const FacePart<dim> &other)
+                                {
+                                  return other.is_chosen
+                                         && std::abs(other.normal * face.normal)
+                                                > cosine_of_parallel;
+                                }))
+          wrong += face.part * face.size;
+      return wrong / chosen;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::string>
+  set_boundary_ids(const std::string &text, const std::string &parameter,
+                   dealii::Triangulation<dim> &triangulation)
+  {
+    std::vector<std::string> warnings;
     for (const std::string &entry : split_list(text, ';'))
     {
       if (entry.empty())
@@ -400,19 +481,36 @@ namespace abut::app
                                "whole number from 0.");
       const std::string text = dealii::Utilities::trim(entry.substr(colon + 1));
       const Expression<dim> condition(text, parameter);
+      std::vector<FacePart<dim>> faces;
+      const unsigned int n_points = std::clamp(
+          shim::samples_per_direction(triangulation.n_active_faces(), dim - 1),
+          2u, 20u);
       bool found = false;
       for (const auto &face : triangulation.active_face_iterators())
-        if (face->at_boundary() && condition.value(face->center()) > 0)
+        if (face->at_boundary())
         {
-          face->set_all_boundary_ids(
-              static_cast<dealii::types::boundary_id>(id[0]));
-          found = true;
+          faces.push_back(part_of(face, condition, n_points));
+          if (faces.back().is_chosen)
+            face->set_all_boundary_ids(
+                static_cast<dealii::types::boundary_id>(id[0]));
+          found = found || faces.back().is_chosen;
         }
       if (!found)
         throw InputError(parameter, "no boundary face of the coarse mesh has "
                                     "its centre where '"
                                         + text + "'.");
+      constexpr double visible = 0.01;
+      if (const double wrong = wrong_part(faces); wrong > visible)
+        warnings.push_back(
+            parameter + ": '" + text
+            + "' changes within faces of the coarse mesh, each of which has "
+              "one id, by its centre: "
+            + short_number(100. * wrong, 2) + " % of the area of boundary "
+            + short_number(id[0])
+            + " is too much or missing. Let faces of the coarse mesh end where "
+              "the condition does.");
     }
+    return warnings;
   }
 
   template Placement<2> make_placement<2>(const MeshParameters &);
@@ -435,8 +533,10 @@ namespace abut::app
                                      const dealii::Triangulation<2> &);
   template BoundaryNames names_of<3>(const MeshFileExtras<3> &,
                                      const dealii::Triangulation<3> &);
-  template void set_boundary_ids<2>(const std::string &, const std::string &,
-                                    dealii::Triangulation<2> &);
-  template void set_boundary_ids<3>(const std::string &, const std::string &,
-                                    dealii::Triangulation<3> &);
+  template std::vector<std::string>
+  set_boundary_ids<2>(const std::string &, const std::string &,
+                      dealii::Triangulation<2> &);
+  template std::vector<std::string>
+  set_boundary_ids<3>(const std::string &, const std::string &,
+                      dealii::Triangulation<3> &);
 } // namespace abut::app

@@ -92,10 +92,12 @@ namespace abut::app
 
   /** Give the boundary faces whose centre satisfies a condition an id:
    * `1: y > 0.99; 2: abs(x) < 1e-6` (later entries win). An entry that no
-   * face satisfies is an InputError. */
+   * face satisfies is an InputError. Returns warnings of conditions that
+   * change within faces. */
   template <int dim>
-  void set_boundary_ids(const std::string &text, const std::string &parameter,
-                        dealii::Triangulation<dim> &triangulation);
+  std::vector<std::string>
+  set_boundary_ids(const std::string &text, const std::string &parameter,
+                   dealii::Triangulation<dim> &triangulation);
 } // namespace abut::app
 
 #endif

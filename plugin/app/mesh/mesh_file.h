@@ -30,6 +30,8 @@ namespace abut::app
     unsigned int degree = 1;             /**< of the cells in the file */
     EdgeMiddles<dim> middles;            /**< none: all edges are straight */
     std::vector<std::string> warnings;
+    /** Not of the file: see set_boundary_ids(). */
+    std::vector<std::string> boundary_warnings;
   };
 
   /** Read a mesh file, of gmsh or Abaqus by its content, else of the kind that

@@ -43,6 +43,8 @@ namespace abut::app
     names = names_of(extras, this->triangulation);
     for (const std::string &warning : extras.warnings)
       run.report.warn("Membrane/Mesh/File: " + warning);
+    for (const std::string &warning : extras.boundary_warnings)
+      run.report.warn(warning);
     if (!run.options.output_folder.empty())
       write_outline<dim>(run.options.output_folder, run.communicator,
                          this->triangulation,
