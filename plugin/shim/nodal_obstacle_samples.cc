@@ -22,19 +22,6 @@ namespace abut::shim
 {
   namespace
   {
-    /** A regular grid of points in the unit cell or face. */
-    template <int dim>
-    dealii::Quadrature<dim> regular_points(const unsigned int per_direction,
-                                           const bool of_simplex)
-    {
-      if (of_simplex)
-        return dealii::Quadrature<dim>(simplex_points<dim>(per_direction));
-      std::vector<dealii::Point<1>> line;
-      for (unsigned int k = 0; k < per_direction; ++k)
-        line.emplace_back((k + 0.5) / per_direction);
-      return dealii::Quadrature<dim>(dealii::Quadrature<1>(line));
-    }
-
     template <int dim>
     la::Vector with_ghosts(const dealii::DoFHandler<dim> &dof_handler,
                            const dealii::IndexSet &relevant,

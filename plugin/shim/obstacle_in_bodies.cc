@@ -75,7 +75,7 @@ namespace abut::shim
             corners_(mapping, fe_, of(grid_about(middle(), 0.5, 1)), flags()),
             // No closer than this pays: the deepest point is followed from
             // there.
-            n_(std::min(16u, samples_per_direction(n_cells, dim))),
+            n_(samples_per_direction(n_cells, dim, 1., 16.)),
             grid_(mapping, fe_, of(grid_about(middle(), 0.5, n_)), flags()),
             u_(u),
             is_surface_vertex_(is_surface_vertex)

@@ -92,55 +92,18 @@ namespace abut::shim
       return nodes;
     }
 
-    /** Values at nodes, of which each rank has a part. */
-    template <int dim> class NodeValues
-    {
-    public:
-      NodeValues(const PairPoints<dim> &points, const SurfaceNodes<dim> &nodes)
-          : owned(points.host().dof_handler.locally_owned_dofs()),
-            ghosts(owned.size()),
-            communicator(points.host().communicator)
-      {
-        std::vector<dealii::types::global_dof_index> others;
-        for (const auto &[number, node] : nodes)
-          for (const auto dof : points.surface().nodes[number].dof)
-            if (!owned.is_element(dof))
-              others.push_back(dof);
-        std::sort(others.begin(), others.end());
-        ghosts.add_indices(others.begin(), others.end());
-      }
-
-      /** Zeros, to add values to. */
-      la::Vector vector() const
-      {
-        return la::Vector(owned, communicator);
-      }
-
-      /** With what other ranks have added. Collective. */
-      la::Vector sum(la::Vector &value) const
-      {
-        value.compress(dealii::VectorOperation::add);
-        la::Vector result(owned, ghosts, communicator);
-        result = value;
-        return result;
-      }
-
-    private:
-      const dealii::IndexSet &owned;
-      dealii::IndexSet ghosts;
-      const MPI_Comm communicator;
-    };
-
     /** Mean tractions of the points of nodes, with those of other ranks.
      * Collective. */
     template <int dim>
     void add_tractions(const PairPoints<dim> &points, const std::size_t pair,
                        const double *row_pressure,
-                       const std::uint8_t *row_state,
-                       const NodeValues<dim> &values, SurfaceNodes<dim> &nodes)
+                       const std::uint8_t *row_state, SurfaceNodes<dim> &nodes)
     {
+      const dealii::IndexSet &owned =
+          points.host().dof_handler.locally_owned_dofs();
       const auto &surface = points.surface().nodes;
-      la::Vector force = values.vector(), area(force), open(force);
+      la::Vector force(owned, points.host().communicator), area(force),
+          open(force);
       points.for_each_component(
           [&](const PointRow<dim> &row)
           {
@@ -163,8 +126,23 @@ namespace abut::shim
                     open(surface[node].dof[0]) += 1.;
                 });
           });
-      const la::Vector forces = values.sum(force), areas = values.sum(area),
-                       counts = values.sum(open);
+      std::vector<dealii::types::global_dof_index> others;
+      for (const auto &[number, node] : nodes)
+        for (const auto dof : surface[number].dof)
+          if (!owned.is_element(dof))
+            others.push_back(dof);
+      std::sort(others.begin(), others.end());
+      dealii::IndexSet needed(owned.size());
+      needed.add_indices(others.begin(), others.end());
+      const auto everywhere = [&](la::Vector &value)
+      {
+        value.compress(dealii::VectorOperation::add);
+        la::Vector result(owned, needed, points.host().communicator);
+        result = value;
+        return result;
+      };
+      const la::Vector forces = everywhere(force), areas = everywhere(area),
+                       counts = everywhere(open);
       for (auto &[number, node] : nodes)
       {
         node.area = areas(surface[number].dof[0]);
@@ -179,23 +157,22 @@ namespace abut::shim
      * are connected to others outside; then the edge of the zone is taken away,
      * where tractions are steep. Collective. */
     template <int dim>
-    void find_zone(const PairPoints<dim> &points, const NodeValues<dim> &values,
-                   SurfaceNodes<dim> &nodes)
+    void find_zone(const PairPoints<dim> &points, SurfaceNodes<dim> &nodes)
     {
       using Node = SurfaceNode<dim>;
-      const auto first_unknown = [&](const NodeIndex number)
-      { return points.surface().nodes[number].dof[0]; };
-      const auto repeat = [&](const int n, const auto &is_in)
+      std::vector<std::uint8_t> marks(points.surface().nodes.size());
+      // Nodes that enter or leave the zone, n times, as their owners find.
+      const auto repeat = [&](const int n, const auto &changes)
       {
         for (int i = 0; i < n; ++i)
         {
-          la::Vector marks = values.vector();
+          std::fill(marks.begin(), marks.end(), 0);
           for (const auto &[number, node] : nodes)
-            if (points.set().is_owned(number) && is_in(node))
-              marks(first_unknown(number)) += 1.;
-          const la::Vector all = values.sum(marks);
+            marks[number] =
+                points.set().is_owned(number) && changes(node) ? 1 : 0;
+          points.exchange().merge_marks(points.surface(), marks);
           for (auto &[number, node] : nodes)
-            node.is_in_zone = all(first_unknown(number)) > 0.;
+            node.is_in_zone = node.is_in_zone != (marks[number] != 0);
         }
       };
       const auto has_neighbour = [&](const Node &node, const auto &property)
@@ -205,25 +182,25 @@ namespace abut::shim
                            { return property(nodes.at(other)); });
       };
       const auto is_inside = [](const Node &node) { return node.is_in_zone; };
-      const auto grown = [&](const Node &node)
-      { return is_inside(node) || has_neighbour(node, is_inside); };
-      const auto shrunk = [&](const Node &node) {
-        return is_inside(node) && !has_neighbour(node, std::not_fn(is_inside));
+      const auto enters = [&](const Node &node)
+      { return !is_inside(node) && has_neighbour(node, is_inside); };
+      const auto leaves = [&](const Node &node) {
+        return is_inside(node) && has_neighbour(node, std::not_fn(is_inside));
       };
-      const auto enclosed = [&](const Node &node)
+      const auto is_connected = [&](const Node &node)
       {
         const auto is_outside = [&](const Node &other)
         { return !other.is_closed && !(other.is_in_zone && node.is_inner); };
-        return is_inside(node)
-               && (node.is_closed || !has_neighbour(node, is_outside));
+        return is_inside(node) && !node.is_closed
+               && has_neighbour(node, is_outside);
       };
       constexpr int n_rings = 4;
       for (auto &[number, node] : nodes)
         node.is_in_zone = node.is_closed;
-      repeat(n_rings, grown);
-      repeat(n_rings, shrunk);
-      repeat(n_rings, enclosed);
-      repeat(1, shrunk);
+      repeat(n_rings, enters);
+      repeat(n_rings, leaves);
+      repeat(n_rings, is_connected);
+      repeat(1, leaves);
     }
 
     /** Find SurfaceNode::weights: of the nearest linear function in the mean
@@ -273,9 +250,8 @@ namespace abut::shim
     for (std::size_t p = 0; p < result.size(); ++p)
     {
       SurfaceNodes<dim> nodes = connect(points.surface(), points.pairs()[p]);
-      const NodeValues<dim> values(points, nodes);
-      add_tractions(points, p, row_pressure, row_state, values, nodes);
-      find_zone(points, values, nodes);
+      add_tractions(points, p, row_pressure, row_state, nodes);
+      find_zone(points, nodes);
       const auto all = [&](const SurfaceNode<dim> &node, const auto property)
       {
         return node.*property

@@ -53,10 +53,11 @@ namespace abut::app
             x.distance(vertices[edge.first]
                        + 0.5 * (vertices[edge.second] - vertices[edge.first])));
       if (largest > 0.)
-        extras[body].warnings.push_back(
-            "with " + reason
-            + " edges are straight: the middle nodes of curved edges, up to "
-            + short_number(largest) + " away, are left out.");
+        extras[body].warnings.emplace_back(
+            "File", "with " + reason
+                        + " edges are straight: the middle nodes of curved "
+                          "edges, up to "
+                        + short_number(largest) + " away, are left out.");
       extras[body].middles.clear();
     }
   }
@@ -249,10 +250,9 @@ namespace abut::app
         curved.insert(body);
       if (coarse.are_simplices(body))
         of_simplices.insert(body);
-      for (const std::string &warning : extras.warnings)
-        of_files.push_back(parameters[body].mesh.section + "/File: " + warning);
-      for (const std::string &warning : extras.boundary_warnings)
-        of_files.push_back(warning);
+      for (const auto &[name, warning] : extras.warnings)
+        of_meshes.push_back(parameters[body].mesh.section + "/" + name + ": "
+                            + warning);
       if constexpr (dim == 2)
         if (of_revolution)
           check_axis(parameters[body].mesh, coarse.meshes[body]);

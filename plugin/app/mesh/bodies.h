@@ -130,7 +130,7 @@ namespace abut::app
     /** Warnings about the files of meshes, with the body. */
     const std::vector<std::string> &warnings() const
     {
-      return of_files;
+      return of_meshes;
     }
 
     /** How the vertices came into a mesh of triangles or tetrahedra; empty for
@@ -204,7 +204,7 @@ namespace abut::app
     MeshDescription<dim> description;     ///< of triangles or tetrahedra
     std::vector<BoundaryNames> all_names; ///< by body
     std::vector<std::pair<std::string, unsigned int>> body_names;
-    std::vector<std::string> of_files;
+    std::vector<std::string> of_meshes;
     std::set<unsigned int> curved, of_simplices;             ///< bodies
     std::vector<std::pair<unsigned int, BoundaryId>> origin; ///< by number
     std::map<std::pair<unsigned int, BoundaryId>, BoundaryId> numbers;

@@ -309,9 +309,10 @@ namespace abut::app
       check_cells(parameters.section
                       + (parameters.move.empty() ? "/Scale" : "/Move"),
                   placed);
-      extras.boundary_warnings =
-          set_boundary_ids(parameters.boundary_ids,
-                           parameters.section + "/Boundary ids", placed);
+      for (const std::string &warning :
+           set_boundary_ids(parameters.boundary_ids,
+                            parameters.section + "/Boundary ids", placed))
+        extras.warnings.emplace_back("Boundary ids", warning);
       for (const dealii::types::manifold_id id : reference->get_manifold_ids())
         if (id != dealii::numbers::flat_manifold_id)
           placed.set_manifold(id,
@@ -397,27 +398,17 @@ namespace abut::app
     FacePart<dim> part_of(const Face &face, const Expression<dim> &condition,
                           const unsigned int n)
     {
-      const bool is_triangle = dim == 3 && face->n_vertices() == 3;
+      const dealii::ReferenceCell shape = face->reference_cell();
       FacePart<dim> result;
-      unsigned int n_points = 0;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < (dim == 2 ? 1 : n); ++j)
-        {
-          const double s = (i + 0.5) / n, t = (j + 0.5) / n;
-          if (is_triangle && s + t > 1.)
-            continue;
-          dealii::Point<dim> x = face->vertex(0);
-          x += s * (face->vertex(1) - face->vertex(0));
-          if (dim == 3)
-            x += t * (face->vertex(2) - face->vertex(0));
-          if (dim == 3 && !is_triangle)
-            x += s * t
-                 * (face->vertex(3) - face->vertex(2) - face->vertex(1)
-                    + face->vertex(0));
-          ++n_points;
-          result.part += condition.value(x) > 0 ? 1. : 0.;
-        }
-      result.part /= n_points;
+      const auto grid =
+          shim::regular_points<dim - 1>(n, dim == 3 && shape.is_simplex());
+      for (const dealii::Point<dim - 1> &point : grid.get_points())
+      {
+        dealii::Point<dim> x;
+        for (const unsigned int v : face->vertex_indices())
+          x += shape.d_linear_shape_function(point, v) * face->vertex(v);
+        result.part += condition.value(x) > 0 ? 1. / grid.size() : 0.;
+      }
       result.size = face->measure();
       result.is_chosen = condition.value(face->center()) > 0;
       const dealii::Tensor<1, dim> edge = face->vertex(1) - face->vertex(0);
@@ -482,9 +473,8 @@ namespace abut::app
       const std::string text = dealii::Utilities::trim(entry.substr(colon + 1));
       const Expression<dim> condition(text, parameter);
       std::vector<FacePart<dim>> faces;
-      const unsigned int n_points = std::clamp(
-          shim::samples_per_direction(triangulation.n_active_faces(), dim - 1),
-          2u, 20u);
+      const unsigned int n_points = shim::samples_per_direction(
+          triangulation.n_active_faces(), dim - 1, 2., 20.);
       bool found = false;
       for (const auto &face : triangulation.active_face_iterators())
         if (face->at_boundary())
@@ -502,7 +492,7 @@ namespace abut::app
       constexpr double visible = 0.01;
       if (const double wrong = wrong_part(faces); wrong > visible)
         warnings.push_back(
-            parameter + ": '" + text
+            "'" + text
             + "' changes within faces of the coarse mesh, each of which has "
               "one id, by its centre: "
             + short_number(100. * wrong, 2) + " % of the area of boundary "

@@ -258,7 +258,8 @@ namespace abut::app
       extras.other_names = record.other_sets;
       extras.body_names = record.body_names;
       extras.middles = std::move(mesh.middles);
-      extras.warnings = record.warnings;
+      for (const std::string &warning : record.warnings)
+        extras.warnings.emplace_back("File", warning);
       return extras;
     }
 

@@ -29,9 +29,8 @@ namespace abut::app
     std::vector<std::string> body_names; /**< of sets with all its cells */
     unsigned int degree = 1;             /**< of the cells in the file */
     EdgeMiddles<dim> middles;            /**< none: all edges are straight */
-    std::vector<std::string> warnings;
-    /** Not of the file: see set_boundary_ids(). */
-    std::vector<std::string> boundary_warnings;
+    /** Of the mesh, with the names of the parameters that they are about. */
+    std::vector<std::pair<std::string, std::string>> warnings;
   };
 
   /** Read a mesh file, of gmsh or Abaqus by its content, else of the kind that

@@ -6,28 +6,22 @@
 #include "shim/cell_quadrature.h"
 #include "shim/sampling.h"
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/tensor.h>
-#include <deal.II/fe/fe.h>
 
-#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <vector>
 
 namespace abut::app
 {
-  /** Regular grid of points with equal weights in a cell or facet of dimension
-   * n_dim, @p n in each direction. */
-  template <int n_dim, int dim>
-  dealii::Quadrature<n_dim> point_grid(const dealii::FiniteElement<dim> &fe,
-                                       const unsigned int n)
+  /** Points in cells or facets of dimension n_dim between those of a rule: 2 to
+   * 64 in each direction, many where there are few, @p n on all ranks. */
+  template <int n_dim> auto points_between(const double n)
   {
-    if (!shim::is_simplex(fe))
-      return dealii::QIterated<n_dim>(dealii::QMidpoint<1>(), n);
-    const auto points = shim::simplex_points<n_dim>(n);
-    const double size = n_dim == 1 ? 1. : n_dim == 2 ? 1. / 2. : 1. / 6.;
-    return {points, std::vector<double>(points.size(), size / points.size())};
+    const unsigned int n_points =
+        shim::samples_per_direction(n, n_dim, 2., 64.);
+    return [n_points](const auto &fe)
+    { return shim::regular_points<n_dim>(n_points, shim::is_simplex(fe)); };
   }
 
   /** Force of loads that their quadrature points miss or add, found by
@@ -57,8 +51,6 @@ namespace abut::app
                  });
       const double n_loaded =
           dealii::Utilities::MPI::sum(double(applied.size()), communicator);
-      const unsigned int n_points =
-          std::clamp(shim::samples_per_direction(n_loaded, n_dim), 2u, 64u);
       std::size_t place = 0;
       const auto subtract = [&](const Forces &forces)
       {
@@ -67,12 +59,7 @@ namespace abut::app
         wrong += (applied[place++] - resultant(forces)).norm();
       };
       collective(communicator,
-                 [&]
-                 {
-                   for_each([&](const auto &fe)
-                            { return point_grid<n_dim>(fe, n_points); },
-                            subtract);
-                 });
+                 [&] { for_each(points_between<n_dim>(n_loaded), subtract); });
       any = true;
     }
 

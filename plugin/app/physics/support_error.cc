@@ -8,7 +8,6 @@
 
 #include <deal.II/fe/fe_values.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace abut::app
@@ -39,12 +38,8 @@ namespace abut::app
     double n_faces = 0.;
     for_each_face([&](const auto &...) { n_faces += 1.; });
     n_faces = MPI::sum(n_faces, communicator);
-    const unsigned int n_points =
-        std::clamp(shim::samples_per_direction(n_faces, dim - 1), 2u, 64u);
     const auto values_of = shim::face_values(
-        problem.mapping, problem.dof_handler,
-        [&](const dealii::FiniteElement<dim> &fe)
-        { return point_grid<dim - 1>(fe, n_points); },
+        problem.mapping, problem.dof_handler, points_between<dim - 1>(n_faces),
         dealii::update_values | dealii::update_JxW_values
             | dealii::update_quadrature_points);
     const la::Vector of_nodes = problem.ghosted(problem.vector());

@@ -41,10 +41,8 @@ namespace abut::app
     const MeshFileExtras<dim> extras =
         app::create_mesh(parameters.mesh, run.options, this->triangulation);
     names = names_of(extras, this->triangulation);
-    for (const std::string &warning : extras.warnings)
-      run.report.warn("Membrane/Mesh/File: " + warning);
-    for (const std::string &warning : extras.boundary_warnings)
-      run.report.warn(warning);
+    for (const auto &[name, warning] : extras.warnings)
+      run.report.warn(parameters.mesh.section + "/" + name + ": " + warning);
     if (!run.options.output_folder.empty())
       write_outline<dim>(run.options.output_folder, run.communicator,
                          this->triangulation,
