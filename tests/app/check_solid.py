@@ -335,6 +335,17 @@ for dim in (2, 3):
                 f"{dim}: a wave over {n} facets")
     p.close(1. + pressed(dim, 4, "1e-3*(1+x)"), 1., 1e-9, f"{dim}: a plane")
 
+# Friction on a strip between nodes, on one with nodes in it, and one that changes slowly.
+for friction, least, most in (("if(x > 0.27 && x < 0.48, 0.5, 0)", 1., 1.),
+                              ("if(x > 0.4, 0.5, 0)", 0.05, 0.3), ("0.1+0.2*x", 0., 1e-9)):
+    part = part_missed("pair_1_friction_error", 0.1, solid(
+        2, block(1, "4, 4 : 0, 0 : 1, 1 : true", "3: 0.01, -0.01",
+                 more=("Young modulus = 1e4",)),
+        section("Obstacle 1", "Kind = plane"),
+        section("Pair 1", "Secondary = 1: 2", "Obstacle = 1", f"Friction = {friction}"),
+        bodies=1, obstacles=1))
+    p.expect(least - 1e-9 <= part <= most + 1e-9, f"{friction}: {part}")
+
 # The same of membranes: body forces, and fluxes through the boundary.
 for load, error in (
         ("Body force = if(x > 0.25 && x < 0.28125, -1, 0)", 1.),

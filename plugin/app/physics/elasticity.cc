@@ -6,10 +6,10 @@
 #include "app/input/short_number.h"
 #include "cell_sum.h"
 #include "load_error.h"
+#include "nodal_error.h"
 #include "nodal_places.h"
 #include "shim/values_by_element.h"
 #include "stiffness_cache.h"
-#include "support_error.h"
 
 #include <abut/dealii/distribute.h>
 
@@ -394,11 +394,12 @@ namespace abut::app
   std::optional<double>
   Elasticity<dim>::support_error(const ElasticData<dim> &data) const
   {
-    std::map<boundary_id, Prescribed<dim>> displacements;
+    std::vector<OnBoundary<dim>> displacements;
     for (const auto &[id, condition] : data.supports)
       if (!condition.function->is_wholly_constant())
-        displacements[id] = {condition.function, condition.components};
-    return app::support_error(*this, displacements);
+        displacements.push_back(
+            {condition.function, condition.components, {id}});
+    return nodal_error(*this, displacements);
   }
 
   template <int dim>

@@ -96,7 +96,7 @@ namespace abut::app
      * Collective. */
     std::optional<double> load_error(const ElasticData<dim> &data) const;
 
-    /** The same of prescribed displacements, see app::support_error(). */
+    /** The same of prescribed displacements, see nodal_error(). */
     std::optional<double> support_error(const ElasticData<dim> &data) const;
 
     /** Internal minus external forces of a displacement (owned) at all

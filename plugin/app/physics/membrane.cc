@@ -7,10 +7,10 @@
 #include "cell_sum.h"
 #include "error_norms.h"
 #include "load_error.h"
+#include "nodal_error.h"
 #include "shim/cell_quadrature.h"
 #include "shim/shifted_cells.h"
 #include "shim/values_by_element.h"
-#include "support_error.h"
 
 #include <abut/dealii/distribute.h>
 
@@ -309,11 +309,12 @@ namespace abut::app
   std::optional<double>
   Membrane<dim>::support_error(const MembraneData<dim> &data) const
   {
-    std::map<dealii::types::boundary_id, Prescribed<dim>> displacements;
+    std::vector<OnBoundary<dim>> displacements;
     if (!data.constant_dirichlet)
       for (const auto &[id, function] : data.dirichlet)
-        displacements[id] = {function, dealii::ComponentMask(1, true)};
-    return app::support_error(*this, displacements);
+        displacements.push_back(
+            {function, dealii::ComponentMask(1, true), {id}});
+    return nodal_error(*this, displacements);
   }
 
   template <int dim> la::Vector Membrane<dim>::loads_at_supports() const

@@ -58,7 +58,7 @@ namespace abut::app
      * none where there is no formula with variables. Collective. */
     std::optional<double> load_error(const MembraneData<dim> &data) const;
 
-    /** The same of prescribed displacements, see app::support_error(). */
+    /** The same of prescribed displacements, see nodal_error(). */
     std::optional<double> support_error(const MembraneData<dim> &data) const;
 
     /** Energy with the data of the last assemble(). Collective. */

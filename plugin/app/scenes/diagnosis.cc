@@ -29,7 +29,7 @@ namespace abut::app
 
     /** Parts of the force of loads, and of prescribed displacements, that cells
      * may miss. Nodes follow a wave with six facets. */
-    constexpr double visible_load_error = 0.02, visible_support_error = 0.1;
+    constexpr double visible_load_error = 0.02, visible_nodal_error = 0.1;
 
     /** Order below which an energy converges slowly: smooth data gives 2, the
      * corners of bodies some 1.4. */
@@ -96,10 +96,20 @@ namespace abut::app
                   "the force of tractions, pressures and body forces is "
                   "missing or too much, as their formulas are evaluated at few "
                   "points of each");
-    diagnose_part(report, "support_error", support_error, visible_support_error,
+    diagnose_part(report, "support_error", support_error, visible_nodal_error,
                   "Prescribed displacements change within facets: ",
                   "them is missing or too much, as their formulas are "
                   "evaluated at nodes");
+  }
+
+  void diagnose_friction_data(Report &report, const std::string &name,
+                              const std::string &pair,
+                              const std::optional<double> error)
+  {
+    diagnose_part(report, name, error, visible_nodal_error,
+                  pair + ": friction changes within facets: ",
+                  "its coefficient or largest value is missing or too much, as "
+                  "the formula is evaluated at nodes");
   }
 
   void report_estimate(Report &report, const double estimate, const double norm)

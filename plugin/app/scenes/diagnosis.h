@@ -30,6 +30,12 @@ namespace abut::app
   void diagnose_data(Report &report, std::optional<double> load_error,
                      std::optional<double> support_error);
 
+  /** The same of a pair's coefficient of friction and its limit at nodes; @p
+   * name of the measure, @p pair in messages. */
+  void diagnose_friction_data(Report &report, const std::string &name,
+                              const std::string &pair,
+                              std::optional<double> error);
+
   /** The error estimate of a mesh into the summary; relative to the energy norm
    * of the solution where @p norm is not 0. */
   void report_estimate(Report &report, double estimate, double norm);

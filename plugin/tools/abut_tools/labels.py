@@ -161,6 +161,7 @@ PAIR = {
     "shared_stick_share": ("share of nodes in two contacts", "", ""),
     "initial_gap_work": ("work on initial gaps", "", "force·length"),
     "load_error": ("force of loads that cells do not resolve", "", ""),
+    "friction_error": ("friction that facets do not resolve", "", ""),
     "support_error": ("prescribed displacement that facets do not resolve", "", ""),
     "transfer_error": ("uniform pressure transferred to wrong nodes", "", ""),
 }

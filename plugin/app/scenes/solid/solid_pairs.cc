@@ -91,9 +91,10 @@ namespace abut::app
   {
     const auto formula = [&](const std::string &text, const std::string &name)
     {
-      friction.push_back(
-          std::make_shared<Expression<dim>>(text, pair.parameter(name)));
-      return [expression = friction.back()](const dealii::Point<dim> &place)
+      friction.emplace_back(all.size(), std::make_shared<Expression<dim>>(
+                                            text, pair.parameter(name)));
+      return
+          [expression = friction.back().second](const dealii::Point<dim> &place)
       { return expression->evaluate({place})[0]; };
     };
     // Contact without friction pays nothing for it.
@@ -104,6 +105,17 @@ namespace abut::app
     if (!pair.friction_cap.empty())
       made->cap = formula(pair.friction_cap, "Largest friction");
     return made;
+  }
+
+  template <int dim>
+  std::vector<const Expression<dim> *>
+  SolidPairs<dim>::varying_friction(const std::size_t pair) const
+  {
+    std::vector<const Expression<dim> *> result;
+    for (const auto &[index, formula] : friction)
+      if (index == pair && !formula->is_wholly_constant())
+        result.push_back(formula.get());
+    return result;
   }
 
   template <int dim>
@@ -218,7 +230,7 @@ namespace abut::app
   template <int dim> void SolidPairs<dim>::set_time(const double present)
   {
     time = present;
-    for (const auto &formula : friction)
+    for (const auto &[pair, formula] : friction)
       formula->set_time(time);
     for (std::size_t o = 0; o < obstacles.size(); ++o)
       place_obstacle(o, driven.empty() ? dealii::Tensor<1, dim>() : driven[o]);

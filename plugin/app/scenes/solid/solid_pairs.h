@@ -107,6 +107,10 @@ namespace abut::app
       return !friction.empty();
     }
 
+    /** Coefficient and cap of a pair, by its index: those with variables. */
+    std::vector<const Expression<dim> *>
+    varying_friction(std::size_t pair) const;
+
     /** Boundary ids of all secondary, or of all surfaces. */
     std::set<dealii::types::boundary_id> secondary() const;
     std::set<dealii::types::boundary_id> surfaces() const;
@@ -132,8 +136,9 @@ namespace abut::app
     std::vector<std::shared_ptr<RigidObstacle<dim>>> obstacles;
     std::vector<dealii::Tensor<1, dim>> driven; ///< by obstacle, or empty
     std::vector<std::unique_ptr<Expression<dim>>> gaps;
-    /** Of the pairs with friction. */
-    std::vector<std::shared_ptr<Expression<dim>>> friction;
+    /** Of the pairs with friction, with the pair's index. */
+    std::vector<std::pair<std::size_t, std::shared_ptr<Expression<dim>>>>
+        friction;
     std::vector<ContactPair<dim>> all;
   };
 } // namespace abut::app

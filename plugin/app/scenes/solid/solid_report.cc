@@ -9,6 +9,7 @@
 #include "app/physics/load_resultants.h"
 #include "app/physics/locking.h"
 #include "app/physics/negative_curvature.h"
+#include "app/physics/nodal_error.h"
 #include "app/physics/nodal_places.h"
 #include "app/scenes/diagnosis.h"
 #include "app/scenes/left_out.h"
@@ -509,9 +510,29 @@ namespace abut::app
     report.set("dissipation", dissipation);
     report.set("friction_rung", run.results.back().progress.friction_rung);
     const auto results = contact.results().pairs();
+    for (std::size_t p = 0; p < late.size(); ++p)
+      examine_friction_data(p);
     for (std::size_t p = 0; p < late.size() && !model.has_inertia(); ++p)
       if (pairs.pairs()[p].friction != nullptr)
         examine_late(p, late[p], results[p].normal_force);
+  }
+
+  template <int dim>
+  void SolidReport<dim>::examine_friction_data(const std::size_t p) const
+  {
+    dealii::ComponentMask first(dim, false);
+    first.set(0, true);
+    std::vector<dealii::VectorFunctionFromScalarFunctionObject<dim>> fields;
+    for (const Expression<dim> *formula : pairs.varying_friction(p))
+      fields.emplace_back([formula](const dealii::Point<dim> &x)
+                          { return formula->value(x); },
+                          0, dim);
+    std::vector<OnBoundary<dim>> functions;
+    for (const auto &field : fields)
+      functions.push_back({&field, first, pairs.pairs()[p].secondary});
+    diagnose_friction_data(
+        report, "pair_" + std::to_string(p + 1) + "_friction_error",
+        pairs.pairs()[p].name, nodal_error(elasticity, functions));
   }
 
   template <int dim>

@@ -53,6 +53,7 @@ namespace abut::app
     /** What angles of coarse facets do to pressures. */
     void report_chords() const;
     void report_friction() const;
+    void examine_friction_data(std::size_t p) const;
     void examine_late(std::size_t pair, double late, double normal) const;
     void report_contact() const;
     /** What it took to find out who touches whom, and what changed. */
