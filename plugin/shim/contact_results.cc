@@ -47,14 +47,13 @@ namespace abut::shim
 
       std::vector<PairResult<dim>> pairs() const override
       {
-        i.host.check_unchanged("pairs()");
-        if (i.surfaces == nullptr)
-          return {};
-        const std::vector<double> pressures = i.row_pressures();
-        const std::vector<std::uint8_t> states = i.row_states();
-        return i.surfaces->examination().results(
-            pressures.data(), i.rows.gap.data(), states.data(),
-            late_force(pressures, states));
+        return pairs_at(nullptr);
+      }
+
+      std::vector<PairResult<dim>>
+      pairs(const la::VectorView &displacement) const override
+      {
+        return pairs_at(&i.given("pairs()", "displacement", displacement));
       }
 
       la::Vector pressure() const override
@@ -171,6 +170,20 @@ namespace abut::shim
       }
 
     private:
+      /** Null: moments are those of the last examine(). */
+      std::vector<PairResult<dim>>
+      pairs_at(const la::Vector *displacement) const
+      {
+        i.host.check_unchanged("pairs()");
+        if (i.surfaces == nullptr)
+          return {};
+        const std::vector<double> pressures = i.row_pressures();
+        const std::vector<std::uint8_t> states = i.row_states();
+        return i.surfaces->examination().results(
+            displacement, pressures.data(), i.rows.gap.data(), states.data(),
+            late_force(pressures, states));
+      }
+
       /** By which pressures let bodies into each other; 0: by none. */
       double penalty_of(const abut_progress &progress) const
       {

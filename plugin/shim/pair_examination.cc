@@ -242,17 +242,18 @@ namespace abut::shim
   }
 
   template <int dim>
-  std::vector<PairResult<dim>>
-  PairExamination<dim>::results(const double *row_pressure,
-                                const double *row_gap,
-                                const std::uint8_t *row_state,
-                                const std::vector<double> &late_force) const
+  std::vector<PairResult<dim>> PairExamination<dim>::results(
+      const la::Vector *displacement, const double *row_pressure,
+      const double *row_gap, const std::uint8_t *row_state,
+      const std::vector<double> &late_force) const
   {
     std::vector<PairResult<dim>> results(pairs_.size());
-    const NodePositions<dim> nodes(points_,
-                                   examined_.size() == surface_.nodes.size()
-                                       ? examined_
-                                       : std::vector<Direction<dim>>());
+    std::vector<Direction<dim>> moved;
+    if (displacement != nullptr)
+      moved = points_.displacements_in_reach(*displacement);
+    else if (examined_.size() == surface_.nodes.size())
+      moved = examined_;
+    const NodePositions<dim> nodes(points_, moved);
     std::vector<abut_contact_sums> sums(pairs_.size());
     check(host_.context,
           abut_points_measure(points_.handle(), &nodes.view, row_pressure,

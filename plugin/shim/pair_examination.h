@@ -41,10 +41,11 @@ namespace abut::shim
                                      const std::uint8_t *row_state) const;
 
     /** Results by pair for [rows] pressures, gaps and states (null: nothing
-     * solved). @p late_force: [pairs] of this rank. Collective. */
+     * solved), with moments at @p displacement, null: that of the last
+     * examine(). @p late_force: [pairs] of this rank. Collective. */
     std::vector<PairResult<dim>>
-    results(const double *row_pressure, const double *row_gap,
-            const std::uint8_t *row_state,
+    results(const la::Vector *displacement, const double *row_pressure,
+            const double *row_gap, const std::uint8_t *row_state,
             const std::vector<double> &late_force) const;
 
   private:

@@ -5,6 +5,7 @@ surface; and closed forms. In time: exchanged momentum, and a ball that falls
 as it must. What cannot be is refused."""
 import math
 
+from block_scene import block, section, solid
 from program import Program
 
 p = Program()
@@ -238,5 +239,27 @@ refused("rigid-plate.prm", {**PLATE, "Obstacle 1/Free directions": "x, y",
                             "Obstacle 1/Force": "1, -20",
                             "Time stepping/Smallest step": "0.5"},
         "ABUT-F12", "Nothing holds Obstacle 1 along x", code=3)
+
+# A wheel that a motor turns drives off on a floor with mu m g, until it rolls with
+# v = omega R. The work of the motor is m v^2: half of it stays in the velocity, half
+# goes to friction. Where the origin is does not matter.
+for x, y in (0, 0), (5, -3):
+    p.write("wheel.prm", solid(
+        2,
+        block(1, f"80, 4 : {x - 1}, {y - 0.2} : {x + 3}, {y} : true", "2: 0, 0",
+              more=("Young modulus = 1e6", "Density = 1")),
+        section("Obstacle 1", "Kind = sphere", f"Centre = {x}, {y + 1}",
+                "Radius = 1", "Mass = 3", "Free directions = x, y",
+                "Rotation angle = -60*t", f"Rotation centre = {x}, {y + 1}"),
+        section("Pair 1", "Secondary = 1: 3", "Obstacle = 1", "Friction = 0.3"),
+        section("Time stepping", "Scheme = hht", "Step size = 0.01",
+                "End time = 0.5"),
+        section("Refinement", "Level = 0"),
+        bodies=1, obstacles=1).replace("Pairs = 1", "Pairs = 1\nset Gravity = 0, -10"))
+    wheel = p.run_scene("wheel.prm", codes=(0, 3))
+    exact = 3 * (math.pi / 3)**2
+    p.close(wheel["external_work"], exact, 0.01, f"work of a motor at {x}")
+    p.close(wheel["kinetic_energy"], exact / 2, 0.01, f"velocity of a wheel at {x}")
+    p.close(wheel["dissipation"], exact / 2, 0.02, f"friction of a wheel at {x}")
 
 p.finish()

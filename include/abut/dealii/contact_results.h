@@ -100,6 +100,11 @@ namespace abut
     /** Forces, moments and extremes on each pair; empty without pairs. */
     virtual std::vector<PairResult<dim>> pairs() const = 0;
 
+    /** The same, with moments at the places of @p displacement as those of the
+     * last examine(). */
+    virtual std::vector<PairResult<dim>>
+    pairs(const la::VectorView &displacement) const = 0;
+
     /** Membrane: nodal pressure, positive on the lower obstacle, negative on
      * the upper, 0 where there is no row (hanging nodes: distribute your
      * hanging-node constraints).

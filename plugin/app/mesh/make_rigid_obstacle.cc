@@ -387,8 +387,7 @@ namespace abut::app
             angle(parameters, "Rotation angle", 1)
       {
         const Numbers numbers(parameters);
-        centre = Point<dim>(
-            numbers.vector<dim>("Rotation centre", Tensor<1, dim>()));
+        centre = centre_of_rotation<dim>(parameters);
         axis = numbers.direction<3>("Rotation axis");
       }
 
@@ -448,6 +447,13 @@ namespace abut::app
   } // namespace
 
   template <int dim>
+  Point<dim> centre_of_rotation(const RigidObstacleParameters &parameters)
+  {
+    return Point<dim>(
+        Numbers(parameters).vector<dim>("Rotation centre", Tensor<1, dim>()));
+  }
+
+  template <int dim>
   std::shared_ptr<RigidObstacle<dim>>
   make_rigid_obstacle(const RigidObstacleParameters &parameters,
                       const RunOptions &options,
@@ -462,6 +468,8 @@ namespace abut::app
     return obstacle;
   }
 
+  template Point<2> centre_of_rotation<2>(const RigidObstacleParameters &);
+  template Point<3> centre_of_rotation<3>(const RigidObstacleParameters &);
   template std::shared_ptr<RigidObstacle<2>>
   make_rigid_obstacle<2>(const RigidObstacleParameters &, const RunOptions &,
                          std::shared_ptr<const double>);

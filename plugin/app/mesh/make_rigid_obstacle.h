@@ -22,6 +22,11 @@ namespace abut::app
   make_rigid_obstacle(const RigidObstacleParameters &parameters,
                       const RunOptions &options,
                       std::shared_ptr<const double> half_extent = nullptr);
+
+  /** What `Rotation angle` is about, at time 0. */
+  template <int dim>
+  dealii::Point<dim>
+  centre_of_rotation(const RigidObstacleParameters &parameters);
 } // namespace abut::app
 
 #endif

@@ -20,7 +20,9 @@ namespace abut::app
   template <int dim> struct PlacedObstacle
   {
     std::shared_ptr<const RigidObstacle<dim>> shape;
-    dealii::Tensor<1, dim> motion; /**< translation since time 0 */
+    dealii::Point<dim> centre;       /**< of its rotation, at time 0 */
+    dealii::Tensor<1, dim> motion;   /**< of the centre since time 0 */
+    dealii::Tensor<2, dim> rotation; /**< since time 0 */
   };
 
   /** Write the surfaces of obstacles inside of @p box as a VTU file of lines or

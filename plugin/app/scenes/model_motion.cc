@@ -39,13 +39,34 @@ namespace abut::app
     balance.struct_size = sizeof(balance);
   }
 
+  namespace
+  {
+    /** Axis times angle, below pi, of a rotation. */
+    dealii::Tensor<1, 3> rotation_vector(const dealii::Tensor<2, 3> &r)
+    {
+      dealii::Tensor<1, 3> axis({0.5 * (r[2][1] - r[1][2]),
+                                 0.5 * (r[0][2] - r[2][0]),
+                                 0.5 * (r[1][0] - r[0][1])});
+      const double sine = axis.norm();
+      if (sine > 0.)
+        axis *= std::atan2(sine, 0.5 * (trace(r) - 1.)) / sine;
+      return axis;
+    }
+  } // namespace
+
   template <int dim>
   typename ModelMotion<dim>::Record ModelMotion<dim>::no_contact() const
   {
     const std::size_t n = words.sides.size();
     const std::vector<std::vector<double>> nothing(
         n, std::vector<double>(words.components.size(), 0.));
-    return {{}, nothing, nothing, std::vector<double>(n, 0.)};
+    return {{},
+            nothing,
+            nothing,
+            std::vector<double>(n, 0.),
+            std::vector<dealii::Tensor<1, 3>>(n),
+            std::vector<dealii::Tensor<2, 3>>(
+                n, dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()))};
   }
 
   template <int dim>
@@ -99,6 +120,7 @@ namespace abut::app
     {
       first.force[s] = actions[s].force;
       first.friction[s] = actions[s].friction;
+      first.moment[s] = actions[s].moment;
     }
     is_new = true;
   }
@@ -162,6 +184,8 @@ namespace abut::app
       friction_of_step += friction_work(action, records.back().friction[s]);
       for (std::size_t c = 0; c < action.force.size(); ++c)
         present.force[s][c] += action.force[c];
+      present.moment[s] += action.moment;
+      present.rotation[s] = action.rotation;
       if (!action.place.empty())
         present.place[s] = action.place;
     }
@@ -189,9 +213,14 @@ namespace abut::app
     const double now = part_of_end(time.scheme);
     double result = 0.;
     for (std::size_t s = 0; s < present.force.size(); ++s)
+    {
       for (std::size_t c = 0; c < present.force[s].size(); ++c)
         result += (now * present.force[s][c] + (1. - now) * before.force[s][c])
                   * (present.place[s][c] - before.place[s][c]);
+      result += (now * present.moment[s] + (1. - now) * before.moment[s])
+                * rotation_vector(present.rotation[s]
+                                  * transpose(before.rotation[s]));
+    }
     return result;
   }
 

@@ -6,6 +6,9 @@
 #include "contact_run_state.h"
 #include "inertia_parameters.h"
 
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
 #include <map>
 #include <set>
 #include <string>
@@ -24,6 +27,10 @@ namespace abut::app
     std::vector<double> place;
     double friction = 0.;    ///< sum of magnitudes
     double dissipation = 0.; ///< of the slip of the step under it
+    /** Moment of the force about that place, and the obstacle's rotation since
+     * time 0. */
+    dealii::Tensor<1, 3> moment;
+    dealii::Tensor<2, 3> rotation = dealii::unit_symmetric_tensor<3>();
   };
 
   /** How a model tells of its motion. */
@@ -147,6 +154,8 @@ namespace abut::app
       /** By side, as in ContactAction. */
       std::vector<std::vector<double>> force, place;
       std::vector<double> friction;
+      std::vector<dealii::Tensor<1, 3>> moment;
+      std::vector<dealii::Tensor<2, 3>> rotation;
 
       /** B of abut_time_balance. */
       double balance() const
@@ -158,7 +167,7 @@ namespace abut::app
 
       template <class Archive> void serialize(Archive &archive, unsigned int)
       {
-        archive &bodies &force &place &friction;
+        archive &bodies &force &place &friction &moment &rotation;
       }
     };
 

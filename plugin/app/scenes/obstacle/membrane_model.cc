@@ -549,9 +549,9 @@ namespace abut::app
     dealii::Utilities::MPI::sum(sums, run.communicator, sums);
     std::vector<ContactAction> actions;
     if (obstacle.lower)
-      actions.push_back({{sums[0]}, {}});
+      actions.emplace_back().force = {sums[0]};
     if (obstacle.upper)
-      actions.push_back({{sums[1]}, {}});
+      actions.emplace_back().force = {sums[1]};
     return actions;
   }
 

@@ -15,6 +15,20 @@ namespace abut::app
     /** How far surfaces in contact may go in a step, whose points are those of
      * its beginning: parts of a facet, and radian. */
     constexpr double largest_slip = 0.5, largest_rotation = 5. * M_PI / 180.;
+
+    /** Moment about the origin of a force at @p place. */
+    template <int dim>
+    dealii::Tensor<1, 3> moment(const dealii::Point<dim> &place,
+                                const dealii::Tensor<1, dim> &force)
+    {
+      dealii::Tensor<1, 3> arm, there;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        arm[d] = place[d];
+        there[d] = force[d];
+      }
+      return cross_product_3d(arm, there);
+    }
   } // namespace
 
   template <int dim> MotionWords SolidModel<dim>::motion_words() const
@@ -33,7 +47,7 @@ namespace abut::app
     if (pairs->empty())
       return {};
     const auto obstacles = pairs->moved_obstacles();
-    const auto results = run.contact.results().pairs();
+    const auto results = run.contact.results().pairs(run.u);
     std::vector<ContactAction> actions(results.size());
     for (std::size_t p = 0; p < results.size(); ++p)
     {
@@ -42,7 +56,15 @@ namespace abut::app
       actions[p].dissipation = results[p].dissipation;
       for (const auto &obstacle : obstacles)
         if (obstacle.shape == pairs->pairs()[p].obstacle)
+        {
           actions[p].place = components(obstacle.motion);
+          actions[p].moment = results[p].present_moment
+                              - moment(obstacle.centre + obstacle.motion,
+                                       results[p].secondary_force);
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = 0; e < dim; ++e)
+              actions[p].rotation[d][e] = obstacle.rotation[d][e];
+        }
       // What forces move takes the work of contact from its own energy.
       if (const auto number = pairs->obstacle_of(p))
         for (unsigned int d = 0; d < dim; ++d)

@@ -320,21 +320,20 @@ namespace abut::app
   template <int dim>
   std::vector<PlacedObstacle<dim>> SolidPairs<dim>::moved_obstacles() const
   {
-    const auto place = [](const RigidObstacle<dim> &obstacle)
-    {
-      dealii::Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = obstacle.view().translation[d];
-      return result;
-    };
     std::vector<PlacedObstacle<dim>> result;
     for (std::size_t o = 0; o < obstacles.size(); ++o)
     {
       const auto &obstacle = obstacles[o];
       obstacle->set_time(0.);
-      const dealii::Tensor<1, dim> start = place(*obstacle);
+      const RigidPose<dim> start = obstacle->pose();
       place_obstacle(o, driven.empty() ? dealii::Tensor<1, dim>() : driven[o]);
-      result.push_back({obstacle, place(*obstacle) - start});
+      const RigidPose<dim> now = obstacle->pose();
+      const auto centre = centre_of_rotation<dim>(parameters.obstacles[o]);
+      const auto rotation = now.rotation * transpose(start.rotation);
+      result.push_back(
+          {obstacle, centre,
+           rotation * (centre - start.translation) + now.translation - centre,
+           rotation});
     }
     return result;
   }
