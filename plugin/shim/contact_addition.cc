@@ -120,7 +120,7 @@ namespace abut
   {
     auto &i = *implementation;
     i.check_rows("add()");
-    i.host.check_vertices("add()");
+    i.host.check_places("add()");
     la::Vector &residual =
         i.host.mutable_vector("add()", "residual", given_residual);
     const solve::Stiffness stiffness =

@@ -204,7 +204,7 @@ namespace abut
   {
     auto &i = *implementation;
     i.host.check_mesh("detect()");
-    i.host.check_vertices("detect()");
+    i.host.check_places("detect()");
     const la::Vector &displacement =
         i.host.vector("detect()", "displacement", given_displacement);
     // The pressures reached so far are the start of the next solve.
@@ -355,7 +355,7 @@ namespace abut
   {
     auto &i = *implementation;
     i.check_rows("solve()");
-    i.host.check_vertices("solve()");
+    i.host.check_places("solve()");
     const solve::Stiffness matrix = i.host.constant_stiffness(
         "solve()", tangent,
         !i.input.constant_matrix || i.system.has_new_matrix);

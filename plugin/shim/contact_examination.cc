@@ -78,6 +78,47 @@ namespace abut::shim
             {{"prescribed displacement", seen.lost_displacement()}});
     }
 
+    /** How far @p u is from constraints that it must have: hanging nodes and
+     * others between unknowns, and prescribed values but 0, which hosts may
+     * have for increments. Collective. */
+    template <int dim>
+    void judge_constraints(const ContactHost<dim> &host, const la::Vector &u,
+                           Findings &findings)
+    {
+      la::Vector constrained(u);
+      host.constraints().distribute(constrained);
+      const double size = std::max(u.linfty_norm(), constrained.linfty_norm());
+      constrained -= u;
+      double off[2] = {0., 0.}; // prescribed values, values of other unknowns
+      const dealii::IndexSet &owned = host.owned();
+      for (const auto &line : host.constraints().get_lines())
+        if (owned.is_element(line.index)
+            && (!line.entries.empty() || line.inhomogeneity != 0.))
+        {
+          double &largest = off[line.entries.empty() ? 0 : 1];
+          largest = std::max(
+              largest, std::abs(la::data(
+                           constrained)[owned.index_within_set(line.index)]));
+        }
+      MPI::max(off, versions::communicator(host.dof_handler()), off);
+      const double largest = std::max(off[0], off[1]);
+      if (largest <= visible_violation * size)
+        return;
+      findings.add(
+          ABUT_FAILURE_UNBALANCED, off[1] > useless_violation * size,
+          "The displacement differs from the constraints given to reinit() by "
+          "up to "
+              + three_digits(largest) + ", where displacements are at most "
+              + three_digits(size)
+              + (off[1] > visible_violation * size
+                     ? ", at hanging nodes or other constraints between "
+                       "unknowns"
+                     : ", at prescribed values")
+              + ". Call distribute() of the constraints before the first step "
+                "and after each.",
+          {{"largest difference", largest}, {"largest displacement", size}});
+    }
+
     void judge_strain(const ContactExamination &seen, const bool allow,
                       const bool lacks_prescribed, Findings &findings)
     {
@@ -630,6 +671,7 @@ namespace abut::shim
                    "false.");
       return result;
     }
+    judge_constraints(i.host, displacement, findings);
     if (residual)
     {
       result.imbalance = i.checks->imbalance(residual);

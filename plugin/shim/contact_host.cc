@@ -54,7 +54,8 @@ namespace abut::shim
     dof_handler_ = &dof_handler;
     constraints_ = &constraints;
     n_unknowns_ = dof_handler.n_dofs();
-    vertices_ = dof_handler.get_triangulation().get_vertices();
+    vertices_ = vertices();
+    boundary_unknowns_ = boundary_unknowns();
     reference_.reset();
     copied_.clear();
     copied_reference_.clear();
@@ -82,12 +83,42 @@ namespace abut::shim
   }
 
   template <int dim>
-  void ContactHost<dim>::check_vertices(const std::string &call) const
+  std::vector<dealii::Point<dim>> ContactHost<dim>::vertices() const
+  {
+    std::vector<dealii::Point<dim>> result =
+        dof_handler_->get_triangulation().get_vertices();
+    if (!mapping_->preserves_vertex_locations())
+      for (const auto &cell : dof_handler_->active_cell_iterators())
+        if (cell->is_locally_owned())
+        {
+          const auto corners = mapping_->get_vertices(cell);
+          for (unsigned int v = 0; v < corners.size(); ++v)
+            result[cell->vertex_index(v)] = corners[v];
+        }
+    return result;
+  }
+
+  template <int dim>
+  std::vector<dealii::types::global_dof_index>
+  ContactHost<dim>::boundary_unknowns() const
+  {
+    std::vector<dealii::types::global_dof_index> result, of_cell;
+    for (const auto &cell : dof_handler_->active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+      {
+        of_cell.resize(cell->get_fe().n_dofs_per_cell());
+        cell->get_dof_indices(of_cell);
+        result.insert(result.end(), of_cell.begin(), of_cell.end());
+      }
+    return result;
+  }
+
+  template <int dim>
+  void ContactHost<dim>::check_places(const std::string &call) const
   {
     // A mesh that is moved, written to a file and moved back is the same.
     constexpr double round_off = 1e-12;
-    const std::vector<dealii::Point<dim>> &now =
-        dof_handler_->get_triangulation().get_vertices();
+    const std::vector<dealii::Point<dim>> now = vertices();
     const std::size_t n = std::min(now.size(), vertices_.size());
     double size = 0., largest = 0.;
     std::size_t farthest = 0;
@@ -108,12 +139,17 @@ namespace abut::shim
            << ". Distribute the unknowns again and call reinit() and detect() "
               "after each change of the mesh.";
     else if (!(largest <= round_off * round_off * size))
-      text << "A vertex of the mesh is at (" << now[farthest] << ") in " << call
-           << ", and was at (" << vertices_[farthest]
+      text << "A vertex of the mesh, moved by the mapping, is at ("
+           << now[farthest] << ") in " << call << ", and was at ("
+           << vertices_[farthest]
            << ") in the last reinit(): surfaces and gaps are those of the old "
               "positions. Call reinit() and detect() after each motion of the "
               "mesh, or leave the mesh where it is and let the displacement "
               "describe the motion.";
+    else if (boundary_unknowns() != boundary_unknowns_)
+      text << "The unknowns have other numbers in " << call
+           << " than in the last reinit(). Call reinit() and detect() after "
+              "unknowns are distributed or renumbered.";
     throw_everywhere<ContactError>(communicator_, text.str());
   }
 

@@ -71,9 +71,10 @@ namespace abut::shim
     /** The same, but without reinit() there is nothing to throw about. */
     void check_unchanged(const std::string &call) const;
 
-    /** Throw, on all ranks, if a vertex of the mesh is not where it was in
-     * reinit(). One pass over the vertices. Collective. */
-    void check_vertices(const std::string &call) const;
+    /** Throw, on all ranks, if a vertex of the mesh, moved by the mapping, is
+     * not where it was in reinit(), or if unknowns have other numbers. One pass
+     * over vertices and cells. Collective. */
+    void check_places(const std::string &call) const;
 
     /** The argument of a host in a @p call: the vector itself, or its view's
      * copy. Throws, on all ranks, if it is not one of the present unknowns.
@@ -133,6 +134,9 @@ namespace abut::shim
     void check_coupled(const la::Matrix &matrix, const std::string &name) const;
     /** Unknowns of the displacement if they come before all others, else 0. */
     dealii::types::global_dof_index displacement_block() const;
+    /** Where vertices of the mesh are by the mapping. */
+    std::vector<dealii::Point<dim>> vertices() const;
+    std::vector<dealii::types::global_dof_index> boundary_unknowns() const;
     solve::Stiffness stiffness(const std::string &call, const Tangent &tangent,
                                HostMatrixCopy &copy) const;
 
@@ -143,7 +147,9 @@ namespace abut::shim
     std::vector<VertexOrigin> vertex_origins_, next_origins_;
     dealii::types::global_dof_index n_unknowns_ = 0; ///< in reinit()
     std::vector<dealii::Point<dim>> vertices_;       ///< in reinit()
-    std::optional<solve::Stiffness> reference_;      ///< none: the present one
+    /** Those of cells at the boundary, in reinit(). */
+    std::vector<dealii::types::global_dof_index> boundary_unknowns_;
+    std::optional<solve::Stiffness> reference_; ///< none: the present one
     /** Copies of matrices of other types: the present one, and reference. */
     mutable HostMatrixCopy copied_;
     HostMatrixCopy copied_reference_;

@@ -23,6 +23,10 @@ namespace abut::shim
   inline constexpr double visible_strain = 0.05, useless_strain = 0.5,
                           useless_mean_strain = 1. / 3.;
 
+  /** Differences of a displacement from its constraints, by the largest
+   * displacement: what iterative solvers leave is less. */
+  inline constexpr double visible_violation = 1e-3, useless_violation = 0.1;
+
   /** Forces out of balance that are worth a word. */
   inline constexpr double visible_imbalance = 1e-2;
 

@@ -211,44 +211,59 @@ namespace abut::shim
             opposite};
   }
 
+  namespace
+  {
+    /** Add the points with friction of this rank; throws ContactError for
+     * values that cannot be, and what functions of the host throw. */
+    template <int dim>
+    void add_frictional_points(const PairPoints<dim> &points,
+                               RowSource::FrictionalPoints &result)
+    {
+      Message message;
+      for (std::int32_t i = 0; i < points.view().n_points; ++i)
+      {
+        const std::int32_t first = points.view().component_start[i];
+        const std::int32_t n = points.view().component_start[i + 1] - first;
+        const SurfacePair<dim> &pair = points.pairs()[points.places().pair[i]];
+        if (points.view().kind[i] == ABUT_POINT_TIE || n == 1)
+          continue;
+        const Friction<dim> &friction = *pair.data.friction;
+        Message wrong;
+        dealii::Point<dim> place = points.place(i).position;
+        if (pair.has_current_points()) // back in the reference configuration
+          points.for_each_secondary(i, [&](const NodeIndex node, const double c)
+                                    { place -= c * points.made_at(node); });
+        result.first.push_back(first);
+        result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
+        const double coefficient = value_of<dim>(friction.coefficient, place,
+                                                 "coefficient of friction",
+                                                 PairField::friction, wrong);
+        result.coefficient.push_back(coefficient);
+        for (const abut_tangent kind : tangent_kinds(points, i))
+          result.tangent.push_back(static_cast<std::uint8_t>(kind));
+        result.cap.push_back(
+            friction.cap
+                ? value_of<dim>(friction.cap, place, "largest traction",
+                                PairField::largest_friction, wrong)
+                : std::numeric_limits<double>::infinity());
+        if (!wrong.empty())
+          message = about_pair(pair.data.name, wrong);
+      }
+      if (!message.empty())
+        throw ContactError(message);
+    }
+  } // namespace
+
   template <int dim>
   RowSource::FrictionalPoints friction_of(const PairPoints<dim> &points)
   {
     RowSource::FrictionalPoints result;
     for (const SurfacePair<dim> &pair : points.pairs())
       result.any = result.any || pair.data.friction != nullptr;
-    Message message;
-    for (std::int32_t i = 0; i < points.view().n_points && result.any; ++i)
-    {
-      const std::int32_t first = points.view().component_start[i];
-      const std::int32_t n = points.view().component_start[i + 1] - first;
-      const SurfacePair<dim> &pair = points.pairs()[points.places().pair[i]];
-      if (points.view().kind[i] == ABUT_POINT_TIE || n == 1)
-        continue;
-      const Friction<dim> &friction = *pair.data.friction;
-      Message wrong;
-      dealii::Point<dim> place = points.place(i).position;
-      if (pair.has_current_points()) // back in the reference configuration
-        points.for_each_secondary(i, [&](const NodeIndex node, const double c)
-                                  { place -= c * points.made_at(node); });
-      result.first.push_back(first);
-      result.n_tangents.push_back(static_cast<std::uint8_t>(n - 1));
-      const double coefficient =
-          value_of<dim>(friction.coefficient, place, "coefficient of friction",
-                        PairField::friction, wrong);
-      result.coefficient.push_back(coefficient);
-      for (const abut_tangent kind : tangent_kinds(points, i))
-        result.tangent.push_back(static_cast<std::uint8_t>(kind));
-      result.cap.push_back(
-          friction.cap ? value_of<dim>(friction.cap, place, "largest traction",
-                                       PairField::largest_friction, wrong)
-                       : std::numeric_limits<double>::infinity());
-      if (!wrong.empty())
-        message = about_pair(pair.data.name, wrong);
-    }
-    throw_everywhere<ContactError>(points.host().communicator, message);
     if (!result.any)
       return result;
+    run_everywhere<ContactError>(points.host().communicator, [&]
+                                 { add_frictional_points(points, result); });
     const auto n = static_cast<std::int32_t>(result.first.size());
     std::int32_t n_rivals = 0;
     for (int pass = 0; pass < 2; ++pass)

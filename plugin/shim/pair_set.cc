@@ -251,6 +251,8 @@ namespace abut::shim
   {
     SurfacePair<dim> pair;
     pair.data = data;
+    if (!(data.reach >= 0. && data.reach <= ABUT_FACET_LIMIT))
+      refuse(pair, "its reach must be between 0, which finds one, and 1e40.");
     pair.has_quadratic_triangles =
         exchange_->has_quadratic_triangles(data.secondary);
     pair.multiplier_degree =

@@ -7,6 +7,7 @@
 #include <abut/dealii/rigid_obstacle.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
@@ -20,6 +21,8 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -570,9 +573,10 @@ namespace
     program.prepare(program.bodies());
     expect(said([&] { program.iterate(); }).empty(), "after reinit()");
 
-    // Mappings move bodies, and no vertices.
+    // Mappings move bodies, and no vertices of the mesh.
     Program eulerian(use);
     Vector motion(eulerian.u);
+    expect(motion.linfty_norm() > 0., "a mapping that moves nothing");
     const dealii::MappingQEulerian<dim, Vector> mapping(1, eulerian.dof_handler,
                                                         motion);
     eulerian.contact.set_pairs({eulerian.bodies()});
@@ -580,7 +584,53 @@ namespace
                             eulerian.constraints);
     eulerian.iterate();
     motion *= 1.1;
+    expect_words(said([&] { eulerian.iterate(); }),
+                 {"A vertex of the mesh", "mapping", "reinit()"});
+    eulerian.contact.reinit(mapping, eulerian.dof_handler,
+                            eulerian.constraints);
     expect(said([&] { eulerian.iterate(); }).empty(), "another mapping");
+
+    for (const double reach :
+         {-1., std::numeric_limits<double>::quiet_NaN(), 1e300})
+    {
+      Program wrong(use);
+      ContactPair<dim> pair = wrong.bodies();
+      pair.reach = reach;
+      expect_words(message_of([&] { wrong.solve(pair); }),
+                   {"lower on upper", "its reach"});
+    }
+
+    Program renumbered(use);
+    renumbered.solve(renumbered.bodies());
+    dealii::DoFRenumbering::Cuthill_McKee(renumbered.dof_handler);
+    expect_words(said([&] { renumbered.contact.detect(renumbered.u); }),
+                 {"unknowns have other numbers", "reinit()"});
+  }
+
+  /** Displacements that are not those of the constraints. */
+  void check_violations()
+  {
+    Use use;
+    use.two_bodies = true;
+    Program program(use);
+    program.solve(program.bodies());
+    const auto found = [&](const Vector &u)
+    { return program.contact.checks().examine(u).findings; };
+    for (const ContactFinding &finding : found(program.u))
+      expect(finding.failure != ABUT_FAILURE_UNBALANCED, finding.text);
+    // Prescribed by 0.05 at the top, and 0.
+    Vector forgotten(program.u);
+    for (const auto &line : program.constraints.get_lines())
+      if (line.inhomogeneity != 0.)
+        forgotten(line.index) = 0.;
+    const auto findings = found(forgotten);
+    const auto seen =
+        std::find_if(findings.begin(), findings.end(),
+                     [](const ContactFinding &finding)
+                     { return finding.failure == ABUT_FAILURE_UNBALANCED; });
+    expect(seen != findings.end()
+               && std::abs(seen->numbers.front().second - 0.05) < 1e-12,
+           "prescribed values that are not in u");
   }
 
   /** What is not finite, zero or left over in K and R. */
@@ -729,6 +779,7 @@ main(int argc, char **argv)
   check_constraints();
   check_shared_vertices();
   check_moved_mesh();
+  check_violations();
   check_values();
   check_iteration();
   check_history();

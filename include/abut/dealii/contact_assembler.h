@@ -131,17 +131,19 @@ namespace abut
     /** The other kind of contact: pairs of surfaces of elastic bodies, or of a
      * surface and a rigid obstacle. The displacement is the first dim
      * components of the finite element, FESystem(FE_Q(degree), dim) or
-     * FESystem(FE_SimplexP(degree), dim) of degree 1 or 2. Where pairs overlap,
-     * the first one has the node. The geometry is that of the reference
-     * configuration, so that gaps are linear in the displacement. Takes effect
-     * at detect(); replaces an obstacle. In load steps call it freely: pairs
-     * that differ from the present ones in their gaps alone keep what was found
-     * for them. Obstacles that move need no call at all. Not collective. */
+     * FESystem(FE_SimplexP(degree), dim) of degree 1 or 2. Where surfaces of
+     * pairs overlap, only one of them may press at a node. The geometry is that
+     * of the reference configuration, so that gaps are linear in the
+     * displacement. Takes effect at detect(); replaces an obstacle. In load
+     * steps call it freely: pairs that differ from the present ones in their
+     * gaps alone keep what was found for them. Obstacles that move need no call
+     * at all. Not collective. */
     virtual void set_pairs(const std::vector<ContactPair<dim>> &pairs);
 
     /** Take a mesh with its unknowns and constraints (closed; hanging nodes
      * and prescribed values). All three must outlive the next reinit().
-     * To be called after each change of the mesh or of the ranks of its cells.
+     * To be called after each change of the mesh, of the ranks of its cells, of
+     * the numbers of unknowns, of the constraints or of the mapping.
      * Forgets pressures unless ContactState::set_pressure() follows. Throws
      * ContactError for cells and elements without contact: others than
      * quadrilaterals, hexahedra, triangles and tetrahedra, two elements for one
