@@ -376,4 +376,34 @@ for condition, words in (("x < 0.3 && y > 0.999", ["changes within faces", "20 %
              and all(word in result.stderr for word in words),
              f"{condition}: {result.stderr}")
 
+# Two hollow spheres, radii 1, 2 and 2, 3, pressed into each other by 0.01, as bodies of
+# revolution: Lame's pressure, whichever side is secondary. Quadratic functions have no
+# area at nodes on the axis.
+def hollow(number, radii, young, poisson, cells):
+    return section(f"Body {number}", section("Mesh", "Generator = quarter_hyper_shell",
+                                             f"Arguments = 0, 0 : {radii} : {cells} : true"),
+                   f"Young modulus = {young}", f"Poisson ratio = {poisson}",
+                   "Prescribed displacement = 2: 0, free; 3: free, 0")
+
+
+def growth(inner, outer, young, poisson, side):
+    """Displacement of a side of a hollow sphere by a unit pressure there."""
+    other = inner + outer - side
+    return side / young * abs((1 - 2 * poisson) * side**3 + (1 + poisson) / 2 * other**3
+                              ) / (outer**3 - inner**3)
+
+
+spheres = 0.01 / (growth(1, 2, 1000, 0.3, 2) + growth(2, 3, 3000, 0.2, 2))
+for sides in (("1: 1", "2: 0"), ("2: 0", "1: 1")):
+    p.write("spheres.prm", solid(
+        2, hollow(1, "1 : 2", 1000, 0.3, 3), hollow(2, "2 : 3", 3000, 0.2, 4),
+        pair(*sides).replace("end", "set Initial gap = -0.01\nend"),
+        section("Refinement", "Level = 2"), section("Output", "Fields = false")))
+    # Mortar disturbs pressures at the axis, and beside it.
+    for method, error in (("dual mortar", 0.05), ("mortar", 0.2)):
+        summary = p.run_scene("spheres.prm", (
+            "Solid/Degree=2", "Solid/Plane=axisymmetric", f"Method/Discretisation={method}"))
+        for key in ("pair_1_pressure", "pair_1_least_pressure"):
+            p.close(summary[key], spheres, error, f"spheres, {sides[0]}, {method}, {key}")
+
 p.finish()

@@ -600,6 +600,40 @@ test_node_on_the_axis(void **state)
   }
 }
 
+/* Mortar has no row at a node without area on the axis, whatever the round-off
+ * of its integral: the row of all others has at least the area of a corner's
+ * function in its ring, 2 pi r L / 6, less the change of r. */
+static void
+test_mortar_on_the_axis(void **state)
+{
+  (void)state;
+  const double pi = acos(-1.);
+  for (int i = 0; i < 2; ++i)
+    for (int k = 1; k <= 40; ++k)
+    {
+      abut_coupling_options o = options_of(&mortars[i]);
+      o.axisymmetric = true;
+      const double r = 0.37 * k, third = r / 3.;
+      const double disc[4] = {r, 0., 0., 0.1 * r},
+                   over[4] = {0., 0.1 * r, r, 0.};
+      scene_mesh s = scene_patch(ABUT_FACET_LINE3, 3, 1, scene_line, disc,
+                                 false),
+                 m = scene_patch(ABUT_FACET_LINE3, 4, 1, scene_line, over,
+                                 false);
+      couple c = couple_meshes(&s, &m, &o, NULL);
+      check_rows(&c);
+      assert_int_equal(c.view.n_rows, 6);
+      for (int32_t row = 0; row < c.view.n_rows; ++row)
+        assert_true(c.view.weight[row] > 2. * pi * third * third / 6.);
+      const double slant = sqrt(1.01);
+      near(c.statistics.covered_area, pi * r * r * slant, 1e-13 * r * r,
+           "cone");
+      couple_destroy(&c);
+      scene_free(&s);
+      scene_free(&m);
+    }
+}
+
 /* A square punch on a plane: the rows at its corners have the normal of the
  * covered side, not the average of the two. */
 static void
@@ -678,6 +712,8 @@ main(void)
       cmocka_unit_test_setup_teardown(test_without_segments, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_arcs, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_axisymmetric, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_mortar_on_the_axis, set_up,
+                                      tear_down),
       cmocka_unit_test_setup_teardown(test_node_on_the_axis, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_corner, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_groove, set_up, tear_down)};

@@ -11,9 +11,9 @@
  *
  * and the node is weak if h_j < H_j / 4 or d_j < h_j / 20. (A line covered by
  * less than three quarters has d = 0 at its far end, where h = H / 4.) The best
- * covered node of each facet is never weak, so that no covered part is lost.
- * Against obstacles all is covered, and weak is the node on an axis of
- * revolution, where d = 0.
+ * covered node of each facet, of those with d_j >= h_j / 20 there if it has
+ * any, is never weak, so that no covered part is lost. A node on an axis of
+ * revolution has d = 0 where all is covered, but for round-off, and so is weak.
  *
  * Corners. Where facets of a feature are covered on both sides, one row cannot
  * hold both directions: with facet normals n the node is dropped if
@@ -124,10 +124,11 @@ integrate(const abut_coupling *c, const abut_coupling_facet *facet,
   }
 }
 
-/* The free node of a facet that is covered best, or -1. */
+/* The free node of a facet that is covered best, or -1, among nodes with
+ * integrals of phi above least times those of the hat. */
 static int32_t
 best_covered(const abut_coupling_functions *f, const integrals *whole,
-             const integrals *covered)
+             const integrals *covered, double least)
 {
   int32_t best = -1;
   double most = 0.;
@@ -135,7 +136,8 @@ best_covered(const abut_coupling_functions *f, const integrals *whole,
   {
     const double ratio =
         whole->hat[l] > 0. ? covered->hat[l] / whole->hat[l] : 0.;
-    if (f->dropped[l] || !(covered->shape[l] > 0.) || !(ratio > most))
+    if (f->dropped[l] || !(covered->shape[l] > least * covered->hat[l])
+        || !(ratio > most))
       continue;
     most = ratio;
     best = f->node[l];
@@ -186,7 +188,9 @@ measure(abut_coupling *c, int32_t index)
   }
   if (c->work.n_points > 0)
     protect(c, &f);
-  const int32_t best = best_covered(&f, &whole, &covered);
+  int32_t best = best_covered(&f, &whole, &covered, smallest_weight);
+  if (best < 0)
+    best = best_covered(&f, &whole, &covered, 0.);
   if (best >= 0)
     ((uint8_t *)c->of_node.flag.data)[best] = 1;
   return ABUT_SUCCESS;
