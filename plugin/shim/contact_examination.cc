@@ -263,7 +263,7 @@ namespace abut::shim
     void judge_oscillation(const PairResult<dim> &pair, const bool is_tied,
                            const bool is_obstacle, Findings &findings)
     {
-      if (pair.oscillation <= visible_oscillation)
+      if (!(pair.oscillation > visible_oscillation))
         return;
       findings.add(
           ABUT_FAILURE_OSCILLATION, false,
