@@ -261,8 +261,9 @@ namespace abut::app
             "Pair " + std::to_string(number) + " hands "
                 + short_number(100. * error, 2)
                 + " % of a uniform pressure to wrong nodes of its primary "
-                  "surface, because the meshes do not match. The contact "
-                  "pressure has an error of this size on all meshes. Use "
+                  "surface, because the meshes do not match. This part does "
+                  "not vanish on finer meshes, and pressures at single points "
+                  "may have larger errors. Use "
                   "Method/Discretisation = mortar or dual mortar.",
             {{"transfer error", error}, {"limit", visible_transfer_error}}));
     }
