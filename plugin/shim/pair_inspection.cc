@@ -4,6 +4,7 @@
 
 #include "agree.h"
 #include "bodies.h"
+#include "coordinates.h"
 #include "obstacle_in_bodies.h"
 #include "obstacle_width.h"
 #include "pair_diagnosis.h"
@@ -42,6 +43,19 @@ namespace abut::shim
       std::ostringstream out;
       out << number;
       return out.str();
+    }
+
+    /** Put an obstacle in a place, of which the host is not told. */
+    template <int dim>
+    void put(const abut_context *context, const RigidObstacle<dim> &obstacle,
+             const RigidPose<dim> &pose)
+    {
+      std::vector<dealii::Tensor<1, dim>> rows;
+      for (unsigned int d = 0; d < dim; ++d)
+        rows.push_back(pose.rotation[d]);
+      check(context, obstacle,
+            abut_obstacle_set_pose(obstacle.handle(), data_of(rows),
+                                   &pose.translation[0]));
     }
   } // namespace
 
@@ -173,6 +187,11 @@ namespace abut::shim
                        host_.search, reach, host_.communicator);
   }
 
+  template <int dim> bool PairInspection<dim>::is_at_start() const
+  {
+    return is_first_ && points_.set().obstacles().committed().empty();
+  }
+
   template <int dim>
   std::string PairInspection<dim>::wrong_side(SurfacePair<dim> &pair) const
   {
@@ -180,30 +199,49 @@ namespace abut::shim
     std::vector<std::uint8_t> owned;
     for (const NodeIndex node : side.node)
       owned.push_back(points_.set().is_owned(node));
+    const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
+    const RigidPose<dim> now = obstacle.pose();
+    // The first step of what moves may be too long.
+    const bool moves = pair.data.may_be_apart && pair.data.first_pose;
+    if (moves)
+      put(host_.context, obstacle, *pair.data.first_pose);
     // Nodes; those where both normals point the same way; of these, those with
-    // the obstacle's material within a facet behind them, in their body.
-    std::int32_t same = 0, material = 0;
-    run_everywhere<ContactError>(
-        host_.communicator,
-        [&]
-        {
-          check(host_.context, *pair.data.obstacle,
-                abut_obstacle_faces_away(
-                    pair.data.obstacle->handle(), side.surface.get(),
-                    owned.data(), side.everywhere.median, &same, &material));
-        });
-    double count[3] = {double(std::count(owned.begin(), owned.end(), 1)),
-                       double(same), double(material)};
-    MPI::sum(count, host_.communicator, count);
+    // the obstacle's material behind them, in their body.
+    double count[3];
+    const auto look = [&](const double depth)
+    {
+      std::int32_t same = 0, material = 0;
+      run_everywhere<ContactError>(
+          host_.communicator,
+          [&]
+          {
+            check(host_.context, obstacle,
+                  abut_obstacle_faces_away(obstacle.handle(),
+                                           side.surface.get(), owned.data(),
+                                           depth, &same, &material));
+          });
+      const double mine[3] = {double(std::count(owned.begin(), owned.end(), 1)),
+                              double(same), double(material)};
+      MPI::sum(mine, host_.communicator, count);
+      return 2. * count[2] > count[0];
+    };
+    // Thin obstacles are near, others may be anywhere in this half of the body.
+    const double half =
+        0.5
+        * least_extent(host_.mapping, host_.dof_handler, pair.data.secondary);
+    const bool is_in_body =
+        look(std::min(side.everywhere.median, half)) || look(half);
+    if (moves)
+      put(host_.context, obstacle, now);
     if (count[1] == 0.)
       return "";
     std::ostringstream text;
     text << "the outward normals of the surface and of the obstacle point in "
             "the same direction at "
          << count[1] << " of " << count[0] << " nodes";
-    if (2. * count[2] <= count[0])
+    if (!is_in_body)
       return text.str() + ".";
-    text << ", and within a facet behind " << count[2]
+    text << ", and behind " << count[2]
          << " of them, inside the body, there is the obstacle's material. "
             "Reverse the obstacle (Normal, sign of a distance, Axis or "
             "Hollow), or use the side of the body that faces it. A thin "
@@ -295,6 +333,10 @@ namespace abut::shim
     const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
+      if (pair.data.obstacle && is_at_start())
+        wrong_side(pair);
+      result.warnings.insert(result.warnings.end(), pair.refused.begin(),
+                             pair.refused.end());
       points_.checks().push_back(result);
       return;
     }

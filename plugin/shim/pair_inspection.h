@@ -37,6 +37,11 @@ namespace abut::shim
     /** The message about it, or an empty one. Collective. */
     Message overlap_at_start(SurfacePair<dim> &pair,
                              const PairCheck &found) const;
+    /** Whether nothing has moved yet. */
+    bool is_at_start() const;
+    /** What both normals say about the sides of surface and obstacle; empty:
+     * nothing. Throws where most of the surface is in the obstacle or in front
+     * of it. Collective. */
     std::string wrong_side(SurfacePair<dim> &pair) const;
     /** Whether supports prescribe the displacement along the normal of all
      * nodes of the secondary. Collective. */

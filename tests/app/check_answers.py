@@ -69,6 +69,37 @@ near(expect(run(plate, *kind("distance", Expression="1 - y")), 0,
             without=("ABUT-F",))["contact_force"], 2 * modulus * 0.01, 1e-6,
      "the same the right way round")
 
+# The same under a block of mass 2 that flies: it touches the plane, is .001 from it
+# on either side, far behind it, or the plane is inside of the block. The right way
+# round it stands with its weight.
+flying = p.write("flying.prm", solid(
+    2, section("Solid", "Gravity = 0, -10"),
+    block(1, "8, 4 : 0, 0 : 2, 1 : true", "", more=(
+        "Young modulus = 1e4", "Poisson ratio = 0.3", "Density = 1")),
+    section("Obstacle 1", "Kind = plane"),
+    section("Pair 1", "Secondary = 1: 2", "Obstacle = 1"),
+    section("Time stepping", "Scheme = hht", "Step size = 0.01", "End time = 0.5"),
+    section("Refinement", "Level = 0"), bodies=1, obstacles=1))
+down = "Obstacle 1/Normal=0, -1"
+for words in (*([down, f"Obstacle 1/Point=0, {y}"]
+                for y in (0., 1e-3, -1e-3, -0.7, 0.4)),
+              [down, "Time stepping/Scheme=contact stabilised"],
+              [down, "Body 1/Material=neo-hooke"],
+              kind("distance", Expression="-y"),
+              kind("height", Expression="0", Axis="0, -1"),
+              kind("sphere", Centre="1, -10", Radius=10, Hollow="true")):
+    for command in ("run", "check"):
+        p.expect_error(run(flying, *words, command=command), "Pair 1", "ABUT-F23",
+                       "of 9 nodes", "Reverse the")
+near(expect(run(flying, "Time stepping/Stiffness damping=0.02"), 0,
+            without=("ABUT-F",))["contact_force"], 20., 1e-3, "the weight")
+# In a hole, and under a ceiling.
+for words in (kind("sphere", Centre="1, 9", Radius=10, Hollow="true"),
+              [down, "Obstacle 1/Point=0, 1", "Pair 1/Secondary=1: 3"]):
+    for command in ("run", "check"):
+        expect(run(flying, *words, "Time stepping/End time=0.02", command=command), 0,
+               without=("ABUT-F",))
+
 # A ball of radius 0.2 that comes down by 0.03 in the middle of a facet: its
 # ends, 0.125 away, are 0.125^2 / (2 * 0.2) = 0.039 outside of it.
 ball = kind("sphere", Radius=0.2, Centre="0.375, 1.2", Motion="0, -0.03*t")
