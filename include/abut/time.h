@@ -329,7 +329,7 @@ extern "C"
     double highest;     /**< largest B */
     double scale;       /**< largest energy that start and loads have given:
                              first and largest external work so far */
-    double gain;        /**< largest (B - first) / scale so far, at least 0 */
+    double gain;        /**< (highest - first) / scale of now, at least 0 */
     double loss;        /**< (first - last) / scale, at least 0 */
     double fall;        /**< what B has fallen by in one step at the most */
     int64_t fall_at;    /**< number of the energy at the end of that step */

@@ -23,14 +23,23 @@ namespace abut::shim
     is_lost_ = !is_known;
     is_given_ = false;
     approach_.clear();
-    poses_.clear();
+    slide_ = la::Vector();
+    slide_poses_.clear();
+    poses_ = poses_of(pairs);
     times_.clear();
     for (const ContactPair<dim> &pair : pairs)
-    {
-      poses_.push_back(pair.obstacle == nullptr ? RigidPose<dim>()
-                                                : pair.obstacle->pose());
       times_.push_back(pair.obstacle == nullptr ? 0. : pair.obstacle->time());
-    }
+  }
+
+  template <int dim>
+  std::vector<RigidPose<dim>>
+  CommittedState<dim>::poses_of(const std::vector<ContactPair<dim>> &pairs)
+  {
+    std::vector<RigidPose<dim>> result;
+    for (const ContactPair<dim> &pair : pairs)
+      result.push_back(pair.obstacle == nullptr ? RigidPose<dim>()
+                                                : pair.obstacle->pose());
+    return result;
   }
 
   template <int dim> void CommittedState<dim>::leave_mesh()

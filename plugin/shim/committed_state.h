@@ -37,6 +37,14 @@ namespace abut::shim
     /** Another mesh follows, whose displacement only the host knows. */
     void leave_mesh();
 
+    /** See ContactState::set_slide(). */
+    void set_slide(const la::Vector &increment,
+                   const std::vector<ContactPair<dim>> &pairs)
+    {
+      slide_ = increment;
+      slide_poses_ = poses_of(pairs);
+    }
+
     /** The displacement recorded is given by the host. */
     void set_given()
     {
@@ -52,6 +60,7 @@ namespace abut::shim
     void give_poses(ObstaclePoses<dim> &obstacles) const
     {
       obstacles.set_committed(poses_, times_);
+      obstacles.set_slide(slide_poses_);
     }
 
     /** Record what bodies move before pairs touch, which is no slip: [pairs]
@@ -78,7 +87,8 @@ namespace abut::shim
         }
     }
 
-    /** [pairs] displacements of these motions (empty: none), or empty. */
+    /** [pairs] displacements that are no slip (empty: none), or empty: of
+     * these motions, less the slide. */
     template <typename Function>
     std::vector<la::Vector> approach(const std::size_t n_pairs,
                                      const Function &displacement_of)
@@ -89,10 +99,22 @@ namespace abut::shim
       for (const auto &motions : approach_)
         result.push_back(motions.empty() ? la::Vector()
                                          : displacement_of(motions));
+      if (slide_.size() == 0)
+        return result;
+      result.resize(n_pairs);
+      for (la::Vector &displacement : result)
+      {
+        if (displacement.size() == 0)
+          displacement.reinit(slide_);
+        displacement -= slide_;
+      }
       return result;
     }
 
   private:
+    static std::vector<RigidPose<dim>>
+    poses_of(const std::vector<ContactPair<dim>> &pairs);
+
     la::Vector displacement_;
     bool is_lost_ = false;              ///< of another mesh or run
     bool is_given_ = false;             ///< by the host, or by commit()
@@ -100,6 +122,8 @@ namespace abut::shim
     std::vector<double> times_;         ///< of obstacles, likewise
     /** [pairs][bodies] motions before the pair touched; empty: nothing. */
     std::vector<std::vector<solve::RigidMotion>> approach_;
+    la::Vector slide_; ///< increment that is slip before it happens; empty: 0
+    std::vector<RigidPose<dim>> slide_poses_; ///< likewise, of obstacles
   };
 } // namespace abut::shim
 

@@ -98,6 +98,15 @@ namespace abut::shim
           i.find_slip_reference();
       }
 
+      void set_slide(const la::VectorView &given) override
+      {
+        i.host.check_mesh("set_slide()");
+        i.committed.set_slide(i.host.vector("set_slide()", "increment", given),
+                              i.input.pairs);
+        if (i.rows.are_found)
+          i.find_slip_reference();
+      }
+
       void save(std::ostream &stream) override
       {
         i.history.save(stream);

@@ -29,6 +29,18 @@ namespace abut::shim
       times_ = times;
     }
 
+    /** Positions that obstacles slide to from the committed ones; empty: none
+     * does. */
+    void set_slide(const Poses &poses)
+    {
+      slide_ = poses;
+    }
+
+    const Poses &slide() const
+    {
+      return slide_;
+    }
+
     const Poses &committed() const
     {
       return committed_;
@@ -75,6 +87,7 @@ namespace abut::shim
     Poses committed_;           ///< or empty
     std::vector<double> times_; ///< or empty
     Poses slip_start_;
+    Poses slide_; ///< or empty
   };
 } // namespace abut::shim
 

@@ -158,7 +158,8 @@ namespace abut::shim
       u = set_.displacements_as_given(committed);
     set_.obstacles().refuse_large_rotations();
     const std::vector<RigidPose<dim>> now = set_.obstacles().now(),
-                                      then = set_.obstacles().before(true);
+                                      then = set_.obstacles().before(true),
+                                      &slide = set_.obstacles().slide();
     find_partners(points, u);
     const std::size_t n = points.view().n_components;
     RowSource::SlipReference result = {std::vector<double>(n, 0.),
@@ -189,10 +190,14 @@ namespace abut::shim
                                    result.value[row.row] -=
                                        c * (approach[p][node] * row.direction);
                                  });
-          if (pairs[p].data.obstacle != nullptr)
-            result.value[row.row] -= ObstaclePoses<dim>::displacement(
-                                         row.place.position, then[p], now[p])
-                                     * row.direction;
+          if (pairs[p].data.obstacle == nullptr)
+            return;
+          dealii::Tensor<1, dim> way = ObstaclePoses<dim>::displacement(
+              row.place.position, then[p], now[p]);
+          if (p < slide.size())
+            way -= ObstaclePoses<dim>::displacement(row.place.position,
+                                                    slide[p], then[p]);
+          result.value[row.row] -= way * row.direction;
         });
     return result;
   }

@@ -16,8 +16,8 @@ namespace abut::shim
     {
     }
 
-    /** Motion of bodies since the last commit() before pairs touched, which is
-     * no slip: [pairs] displacements (owned; empty: none), or empty. */
+    /** Motions that are no slip, as of bodies since the last commit() before
+     * pairs touched: [pairs] displacements (owned; empty: none), or empty. */
     void set_approach(std::vector<la::Vector> approach)
     {
       approach_ = std::move(approach);

@@ -355,6 +355,28 @@ gains_are_of_what_was_given(void **unused)
   assert_close(balance.scale, 10, 1e-12);
 }
 
+/* Half of what the first step gives is made, and loads give a thousand times as
+ * much later: a gain of that part. */
+static void
+gains_are_of_what_is_given_later(void **unused)
+{
+  (void)unused;
+  abut_time_scheme scheme;
+  assert_ok(abut_time_scheme_make(NULL, &scheme));
+  abut_time_balance balance = {.struct_size = sizeof(balance)};
+  const double work[] = {0, 1, 10, 1000}, gain[] = {0, 0.5, 0.05, 0.0005};
+  for (int i = 0; i < 4; ++i)
+  {
+    const double kinetic = i > 0 ? work[i] + 0.5 : 0;
+    const abut_time_energy now = {sizeof(now), kinetic, 0, 0, 0, work[i]};
+    abut_time_verdict verdict;
+    assert_ok(abut_time_judge(&scheme, &now, &balance, &verdict));
+    assert_close(balance.gain, gain[i], 1e-12);
+    assert_int_equal(verdict,
+                     gain[i] > 1e-3 ? ABUT_TIME_GAINS : ABUT_TIME_STEADY);
+  }
+}
+
 /* What lies on a floor and is thrown up from it has nothing but made energy. */
 static void
 energy_of_nothing_blows_up(void **unused)
@@ -718,6 +740,7 @@ main(void)
       cmocka_unit_test(central_difference_has_its_limit),
       cmocka_unit_test(power_iteration_finds_the_limit),
       cmocka_unit_test(gains_are_of_what_was_given),
+      cmocka_unit_test(gains_are_of_what_is_given_later),
       cmocka_unit_test(energy_of_nothing_blows_up),
       cmocka_unit_test(losses_are_told),
       cmocka_unit_test(schemes_are_of_second_order),

@@ -43,6 +43,13 @@ namespace abut
      * at @p displacement, ContactChecks::pairs() warns after detect(). */
     virtual void set_committed(const la::VectorView &displacement) = 0;
 
+    /** At the start of a motion: slips from here on contain this increment of
+     * the displacement, velocity times step, and the way of obstacles from
+     * their committed poses to the present ones, which are those after the
+     * step. Friction then acts against the velocity. Until the next commit() or
+     * set_committed(); call after the latter and before detect(). */
+    virtual void set_slide(const la::VectorView &increment) = 0;
+
     /** Write what was committed to @p stream of rank 0, binary; streams of
      * other ranks are not touched. Preconditioners are built again after it, so
      * that this run goes on as one does that calls load(). Throws HistoryError.

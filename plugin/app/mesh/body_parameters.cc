@@ -83,7 +83,8 @@ namespace abut::app
     parameter::declare(prm, "Initial velocity", "", TextPattern::vector(),
                        parameter::advanced("length/time", "0, -2"),
                        "Velocity at the start of a motion: a formula in x, y, "
-                       "z for each component. Empty: 0.");
+                       "z for each component. Empty: 0. Supports have the "
+                       "velocity of their prescribed displacement.");
     prm.leave_subsection();
   }
 

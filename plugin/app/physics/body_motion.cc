@@ -118,11 +118,12 @@ namespace abut::app
     load_ = problem_.external;
   }
 
-  template <int dim> la::Vector BodyMotion<dim>::resistance() const
+  template <int dim>
+  la::Vector BodyMotion<dim>::resistance(const la::Vector &u) const
   {
     la::Vector moved = velocity_;
     moved *= settings_.stiffness_damping;
-    moved += displacement_;
+    moved += u;
     la::Vector force = problem_.internal_forces(moved);
     la::Vector product = problem_.vector();
     mass_->vmult(product, velocity_);
@@ -132,9 +133,10 @@ namespace abut::app
   }
 
   template <int dim>
-  void BodyMotion<dim>::find_acceleration(const la::Vector &contact)
+  void BodyMotion<dim>::find_acceleration(const la::Vector &u,
+                                          const la::Vector &contact)
   {
-    held_ = resistance();
+    held_ = resistance(u);
     la::Vector right(contact);
     right -= held_;
     problem_.constraints.set_zero(right);
@@ -164,25 +166,37 @@ namespace abut::app
   }
 
   template <int dim>
-  bool BodyMotion<dim>::begin_start(const double dt, la::Vector &u)
+  bool BodyMotion<dim>::begin_start(const double dt, const bool has_friction,
+                                    la::Vector &u)
   {
     const abut_time_scheme &scheme = settings_.scheme;
     if (scheme.projects != 0 || scheme.contact_in_step == 0
-        || abut_time_needs_acceleration(&scheme) == 0 || !touches_with_mass_)
+        || abut_time_needs_acceleration(&scheme) == 0
+        || !(touches_with_mass_ || has_friction))
       return false;
-    scale_mass(1. / (dt * dt), projection_);
+    if (touches_with_mass_)
+      scale_mass(1. / (dt * dt), projection_);
+    else
+    {
+      problem_.tangent(displacement_);
+      projection_.reinit(problem_.stiffness);
+      projection_ = 0.;
+      projection_.add(1., problem_.stiffness);
+      projection_.add(1. / (dt * dt), *free_mass_);
+    }
     stage_ = ABUT_TIME_PROJECTION;
     u = displacement_;
     base_ = u;
-    base_residual_ = without_prescribed(resistance());
+    base_residual_ = without_prescribed(resistance(u));
     return true;
   }
 
   template <int dim>
-  void BodyMotion<dim>::end_start(const la::Vector &contact,
+  void BodyMotion<dim>::end_start(const la::Vector &u,
+                                  const la::Vector &contact,
                                   const la::Vector &on_supports)
   {
-    find_acceleration(contact);
+    find_acceleration(touches_with_mass_ ? displacement_ : u, contact);
     held_ -= on_supports;
     stage_ = ABUT_TIME_STEP;
     projection_.clear();
@@ -195,7 +209,7 @@ namespace abut::app
     displacement_ = displacement;
     velocity_ = velocity;
     set_forces_before();
-    find_acceleration(problem_.vector());
+    find_acceleration(displacement_, problem_.vector());
     next_velocity_ = velocity_;
     dissipated_ = work_ = 0.;
     record_ = measure(displacement_, velocity_);

@@ -73,6 +73,9 @@ namespace abut::app
     /** Mass and unknowns of the present mesh. Collective. */
     void setup(const MassData<dim> &data);
 
+    /** Put the values of @p from at prescribed unknowns into @p values. */
+    void take_prescribed(const la::Vector &from, la::Vector &values) const;
+
     /** Begin at rest or with this velocity, with supports and loads of that
      * time put into the problem. The acceleration is that of M a = f - C v -
      * K u at unknowns with mass, without contact. Collective. */
@@ -87,15 +90,19 @@ namespace abut::app
 
     /** Begin the problem of contact at the start, whose answer is u + dt^2 a
      * with the displacement @p u and the acceleration there: what touches and
-     * is pressed has none into the other side. Returns whether there is one:
-     * where the scheme never looks at an acceleration, or has none of contact,
-     * or nothing that touches has mass, it is not needed. Collective. */
-    bool begin_start(double dt, la::Vector &u);
-
-    /** These are the forces of contact, at prescribed unknowns @p on_supports:
-     * the acceleration becomes that of M a = f - C v - K u + contact.
+     * is pressed has none into the other side. Where nothing that touches has
+     * mass, it is that of a step without velocities: forces of contact act on
+     * masses by the stiffness. Returns whether there is one: where the scheme
+     * never looks at an acceleration, or has none of contact, or where nothing
+     * that touches has mass or friction (@p has_friction), it is not needed.
      * Collective. */
-    void end_start(const la::Vector &contact, const la::Vector &on_supports);
+    bool begin_start(double dt, bool has_friction, la::Vector &u);
+
+    /** The answer @p u has these forces of contact, at prescribed unknowns @p
+     * on_supports: the acceleration becomes that of M a = f - C v - K u +
+     * contact. Collective. */
+    void end_start(const la::Vector &u, const la::Vector &contact,
+                   const la::Vector &on_supports);
 
     /** Go on from fields() and from this displacement; as start().
      * Collective. */
@@ -203,8 +210,6 @@ namespace abut::app
     la::Vector full_residual(const la::Vector &u) const;
     /** Where internal forces of the step are those of. */
     la::Vector elastic_place(const la::Vector &u) const;
-    /** Put the values of @p from at prescribed unknowns into @p values. */
-    void take_prescribed(const la::Vector &from, la::Vector &values) const;
     la::Vector without_prescribed(const la::Vector &values) const;
     bool is_explicit() const
     {
@@ -224,9 +229,10 @@ namespace abut::app
     /** Acceleration that forces at the end of an explicit step make. */
     la::Vector explicit_acceleration() const;
     void set_forces_before();
-    /** What resists at the start, without inertia and contact. */
-    la::Vector resistance() const;
-    void find_acceleration(const la::Vector &contact);
+    /** What resists at the start at the displacement @p u, without inertia and
+     * contact. */
+    la::Vector resistance(const la::Vector &u) const;
+    void find_acceleration(const la::Vector &u, const la::Vector &contact);
     /** A multiple of M as a tangent. */
     void scale_mass(double factor, la::Matrix &matrix) const;
     void mark_massless();

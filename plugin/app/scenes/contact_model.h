@@ -99,6 +99,13 @@ namespace abut::app
       return problem().vector();
     }
 
+    /** Increment of the displacement in the first step by the velocity of the
+     * start. */
+    virtual la::Vector first_increment() const
+    {
+      return problem().vector();
+    }
+
     /** The displacement that the run begins with, on a new mesh and at time 0.
      */
     virtual la::Vector start()

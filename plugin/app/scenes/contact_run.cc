@@ -222,6 +222,11 @@ namespace abut::app
         model.set_contact(state.contact, state.load_steps.time());
         state.contact.state().set_committed(model.last_place());
       }
+      if (is_starting)
+      {
+        model.set_contact(state.contact, state.load_steps.target());
+        state.contact.state().set_slide(model.first_increment());
+      }
     }
     model.set_contact(state.contact, state.present.time);
     if (resumed)

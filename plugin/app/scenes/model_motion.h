@@ -64,17 +64,20 @@ namespace abut::app
     void setup(const typename MassData<dim>::Density &density,
                const std::set<dealii::types::boundary_id> &touching);
 
-    /** Begin with this displacement and velocity; supports and loads are those
-     * of time 0. @p rigid_energy: kinetic energy of rigid obstacles. Returns
-     * the displacement. Collective. */
+    /** Begin with this displacement and velocity, at prescribed unknowns with
+     * @p velocity_of_supports; supports and loads are those of time 0. @p
+     * rigid_energy: kinetic energy of rigid obstacles. Returns the
+     * displacement. Collective. */
     la::Vector start(std::pair<la::Vector, la::Vector> initial,
+                     const la::Vector &velocity_of_supports,
                      double rigid_energy = 0.);
 
     /** See ContactModel::begin_start(). Collective. */
-    bool begin_start(la::Vector &u);
+    bool begin_start(bool has_friction, la::Vector &u);
 
-    /** Its contact does @p actions. Collective. */
-    void end_start(const std::vector<ContactAction> &actions);
+    /** Its answer is @p u, and its contact does @p actions. Collective. */
+    void end_start(const la::Vector &u,
+                   const std::vector<ContactAction> &actions);
 
     /** Go on from the displacement of the run; supports and loads are those of
      * the time reached. Collective. */
@@ -145,6 +148,7 @@ namespace abut::app
       archive &balance.n &balance.first &balance.last &balance.highest;
       archive &balance.scale &balance.gain &has_warned;
       archive &balance.loss &balance.fall &balance.fall_at &loses &lost;
+      archive &gains;
     }
 
     /** The state at a time. */
@@ -190,6 +194,8 @@ namespace abut::app
     /** Tell the limit of an explicit scheme, and warn above it. Collective. */
     void look_at_step();
     void judge(const BodyMotionRecord &record, abut_time_verdict &verdict);
+    std::string text_of_gain() const;
+    void warn_of_gain() const;
     void warn_of_loss() const;
     /** What to try where energy was made: nothing that the motion has. */
     std::string cure_of_gain() const;
@@ -213,7 +219,7 @@ namespace abut::app
     la::Vector on_supports; ///< contact of that step at prescribed unknowns
     double friction_of_step = 0., work_of_step = 0.;
     abut_time_balance balance = {};
-    bool has_warned = false, loses = false, lost = false;
+    bool has_warned = false, gains = false, loses = false, lost = false;
   };
 } // namespace abut::app
 

@@ -4,6 +4,8 @@
 #include "app/restart/archive.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace abut::app
 {
@@ -13,23 +15,51 @@ namespace abut::app
                   : ContactModel<dim>::last_place();
   }
 
+  template <int dim> la::Vector MovingModel<dim>::first_increment() const
+  {
+    if (!motion)
+      return ContactModel<dim>::first_increment();
+    la::Vector result = motion->bodies().velocity();
+    result *= motion->step_length();
+    return result;
+  }
+
   template <int dim> la::Vector MovingModel<dim>::start()
   {
     if (!motion)
       return ContactModel<dim>::start();
-    this->set_time(0.);
+    const la::Vector velocity = velocity_of_supports();
     this->assemble();
-    return motion->start(initial_motion(), initial_rigid_energy());
+    return motion->start(initial_motion(), velocity, initial_rigid_energy());
+  }
+
+  /* By the parabola through the displacements at 0 and within a small part of
+   * the first step: before 0 formulas may have no values. */
+  template <int dim> la::Vector MovingModel<dim>::velocity_of_supports()
+  {
+    constexpr double part = 0.01;
+    const double dt = part * motion->step_length();
+    la::Vector result = this->problem().vector();
+    const std::vector<std::pair<double, double>> samples = {
+        {dt, -1.}, {0.5 * dt, 4.}, {0., -3.}};
+    for (const auto &[time, factor] : samples)
+    {
+      this->set_time(time);
+      la::Vector displacement = this->problem().vector();
+      this->problem().constraints.distribute(displacement);
+      result.add(factor / dt, displacement);
+    }
+    return result;
   }
 
   template <int dim> bool MovingModel<dim>::begin_start(la::Vector &u)
   {
-    return motion && motion->begin_start(u);
+    return motion && motion->begin_start(has_friction(), u);
   }
 
   template <int dim> void MovingModel<dim>::end_start(la::Vector &u)
   {
-    motion->end_start(contact_actions());
+    motion->end_start(u, contact_actions());
     u = motion->bodies().displacement();
   }
 

@@ -28,6 +28,7 @@ namespace abut::app
       return motion != nullptr;
     }
     la::Vector last_place() const override;
+    la::Vector first_increment() const override;
     la::Vector start() override;
     bool begin_start(la::Vector &u) override;
     void end_start(la::Vector &u) override;
@@ -58,6 +59,12 @@ namespace abut::app
      * if nothing can touch. Collective. */
     virtual std::vector<ContactAction> contact_actions() const = 0;
 
+    /** Whether any pair has friction. */
+    virtual bool has_friction() const
+    {
+      return false;
+    }
+
     /** Kinetic energy of rigid obstacles at the start. */
     virtual double initial_rigid_energy() const
     {
@@ -73,6 +80,11 @@ namespace abut::app
     /** What a checkpoint keeps of the motion, as bytes of the archive. */
     std::string motion_state() const;
     void load_motion(const std::string &bytes);
+
+  private:
+    /** At prescribed unknowns, at time 0, which is set afterwards. Collective.
+     */
+    la::Vector velocity_of_supports();
   };
 } // namespace abut::app
 

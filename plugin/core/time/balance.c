@@ -39,9 +39,11 @@ add(abut_time_balance *balance, double work, double sum)
    * scale: it may be of energy that the scheme made. */
   balance->scale =
       fmax(fmax(balance->scale, balance->first + work), fabs(work) / blow_up);
-  if (balance->scale > 0)
-    balance->gain =
-        fmax(balance->gain, (sum - balance->first) / balance->scale);
+  /* Relative to all energy given so far: first steps under loads give next to
+   * nothing, and their errors are no part of what follows. */
+  balance->gain = balance->scale > 0
+                      ? (balance->highest - balance->first) / balance->scale
+                      : 0;
   balance->loss =
       balance->scale > 0 ? fmax(0, balance->first - sum) / balance->scale : 0;
 }

@@ -609,6 +609,8 @@ namespace abut::app
   DrivenObstacles<dim>::displacement(const std::size_t obstacle,
                                      const double time) const
   {
+    if (stage == Stage::start && time > time_reached)
+      return vector_of(obstacle, u) + dt * vector_of(obstacle, v);
     const bool is_committed = time == time_reached && stage != Stage::start;
     return vector_of(obstacle, is_committed ? u : place);
   }

@@ -190,6 +190,10 @@ namespace abut::app
       return functions->initial_motion(elasticity);
     }
     std::vector<ContactAction> contact_actions() const override;
+    bool has_friction() const override
+    {
+      return pairs->has_friction();
+    }
     double initial_rigid_energy() const override
     {
       return driven.kinetic_energy();
