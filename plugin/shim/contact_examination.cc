@@ -119,14 +119,19 @@ namespace abut::shim
           {{"largest difference", largest}, {"largest displacement", size}});
     }
 
+    /** Whether small-strain theory is of no use, by its largest error and the
+     * mean of a body. */
+    bool is_useless(const double largest, const double mean)
+    {
+      return largest >= useless_strain || mean >= useless_mean_strain;
+    }
+
     void judge_strain(const ContactExamination &seen, const bool allow,
                       const bool lacks_prescribed, Findings &findings)
     {
       if (seen.strain <= visible_strain)
         return;
-      const bool is_error = !allow
-                            && (seen.strain >= useless_strain
-                                || seen.mean_strain >= useless_mean_strain);
+      const bool is_error = !allow && is_useless(seen.strain, seen.mean_strain);
       findings.add(
           ABUT_FAILURE_LARGE_STRAIN, is_error,
           "The largest strain is " + percent(seen.strain) + ", "
@@ -146,6 +151,51 @@ namespace abut::shim
            {"mean strain", seen.mean_strain},
            {"warning limit", visible_strain},
            {"error limit", useless_strain}});
+    }
+
+    /** Bodies that contact alone supports have left it at smaller rotations. */
+    void judge_rotation(const ContactExamination &seen, const bool allow,
+                        Findings &findings)
+    {
+      const double stretch = rotation_stretch(seen.rotation);
+      const bool is_too_large =
+          is_useless(stretch, rotation_stretch(seen.mean_rotation));
+      std::string alone;
+      int body = -1;
+      for (const BodyMotion &motion : seen.motions)
+        if (motion.rotation.norm() > visible_rotation)
+        {
+          alone += motion.text + ". ";
+          body = static_cast<int>(motion.body);
+        }
+      // Strains that are larger are reported as such.
+      if (stretch <= std::max(visible_strain, seen.strain) && !is_too_large
+          && (allow || alone.empty()))
+        return;
+      ContactFinding finding(
+          coded(ABUT_FAILURE_LARGE_STRAIN,
+                alone + "Rotations are up to " + three_digits(seen.rotation)
+                    + " radian, " + three_digits(seen.mean_rotation)
+                    + " in the mean of a body. Strains are linear in the "
+                      "displacement, which stretches a body that rotates so "
+                      "far by "
+                    + percent(stretch)
+                    + (alone.empty()
+                           ? " (limit " + percent(visible_strain)
+                                 + "). Use a material of finite strain, or "
+                                   "check the units of loads and stiffness."
+                           : ", and contact has moved away from where it was. "
+                             "Apply loads without a moment about the contact, "
+                             "support the rotation, or use a material of "
+                             "finite strain."),
+                {{"largest rotation", seen.rotation},
+                 {"mean rotation", seen.mean_rotation},
+                 {"stretch", stretch},
+                 {"warning limit", rotation_with(visible_strain)},
+                 {"error limit", rotation_with(useless_strain)}}),
+          is_too_large && !allow);
+      finding.body = body;
+      findings.add(finding);
     }
 
     void judge_balance(const double imbalance, Findings &findings)
@@ -687,8 +737,14 @@ namespace abut::shim
                                    displacement, i.input.axisymmetric);
     result.strain = strain.largest;
     result.mean_strain = strain.mean;
+    result.rotation = strain.largest_rotation;
+    result.mean_rotation = strain.mean_rotation;
+    result.motions = i.system.solver != nullptr
+                         ? i.system.solver->rigid_motions(displacement)
+                         : i.system.followed_motions;
     judge_strain(result, allow_large_strain,
                  i.residual_check.lost_displacement() > 0., findings);
+    judge_rotation(result, allow_large_strain, findings);
     if (!can_touch)
       return result;
     const std::vector<unsigned int> alone = unsupported_bodies(i);
@@ -709,9 +765,6 @@ namespace abut::shim
                 + " without resistance or load. The result has the "
                   "smallest such motion in the mean square. Support the "
                   "body in that direction if the motion matters.");
-    result.motions = i.system.solver != nullptr
-                         ? i.system.solver->rigid_motions(displacement)
-                         : i.system.followed_motions;
     const std::vector<FacetPenetration> facet_penetrations =
         i.source->facet_penetrations(displacement, i.row_states().data());
     i.surfaces->examination().examine(displacement, i.row_pressures().data(),

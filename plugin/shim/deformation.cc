@@ -33,11 +33,13 @@ namespace abut::shim
       return largest;
     }
 
-    /** Sums over the cells of a material. */
-    struct Sums
+    template <int dim> double rotation(const dealii::Tensor<2, dim> &gradient)
     {
-      double volume = 0., strain = 0.;
-    };
+      return (gradient - transpose(gradient)).norm() / std::sqrt(8.);
+    }
+
+    /** Integrals of 1, strain and rotation over the cells of a material. */
+    using Sums = dealii::Tensor<1, 3>;
 
     /** The displacement in one cell after the other: the first components of
      * an element, which have the same shape functions. */
@@ -104,25 +106,20 @@ namespace abut::shim
       std::vector<std::pair<unsigned int, unsigned int>> place_;
     };
 
-    double largest_mean(const std::map<unsigned int, Sums> &mine,
-                        const MPI_Comm communicator)
+    Sums largest_means(const std::map<unsigned int, Sums> &mine,
+                       const MPI_Comm communicator)
     {
-      std::map<unsigned int, std::pair<double, double>> sums;
-      for (const auto &[material, sum] : mine)
-        sums[material] = {sum.volume, sum.strain};
       std::map<unsigned int, Sums> all;
       for (const auto &some :
-           dealii::Utilities::MPI::all_gather(communicator, sums))
+           dealii::Utilities::MPI::all_gather(communicator, mine))
         for (const auto &[material, sum] : some)
-        {
-          all[material].volume += sum.first;
-          all[material].strain += sum.second;
-        }
-      double largest = 0.;
+          all[material] += sum;
+      Sums largest;
       for (const auto &entry : all)
-        if (entry.second.volume > 0.)
-          largest =
-              std::max(largest, entry.second.strain / entry.second.volume);
+        for (unsigned int k = 0; k < 3; ++k)
+          if (entry.second[0] > 0.)
+            largest[k] =
+                std::max(largest[k], entry.second[k] / entry.second[0]);
       return largest;
     }
   } // namespace
@@ -225,19 +222,24 @@ namespace abut::shim
       motion.reinit(cell, ghosted);
       for (const unsigned int q : motion.points.quadrature_point_indices())
       {
-        double here = principal(symmetrize(motion.gradient(q)));
+        const dealii::Tensor<2, dim> gradient = motion.gradient(q);
+        const double angle = rotation(gradient);
+        double here = principal(symmetrize(gradient));
         // In axisymmetry the displacement towards the axis is a strain, too.
         if (axisymmetric)
           here =
               std::max(here, std::abs(motion.value(q)[0]
                                       / motion.points.quadrature_point(q)[0]));
         result.largest = std::max(result.largest, here);
-        sum.volume += motion.points.JxW(q);
-        sum.strain += here * motion.points.JxW(q);
+        result.largest_rotation = std::max(result.largest_rotation, angle);
+        sum += motion.points.JxW(q) * Sums({1., here, angle});
       }
     }
-    result.largest = dealii::Utilities::MPI::max(result.largest, communicator);
-    result.mean = largest_mean(sums, communicator);
+    for (double *value : {&result.largest, &result.largest_rotation})
+      *value = dealii::Utilities::MPI::max(*value, communicator);
+    const Sums means = largest_means(sums, communicator);
+    result.mean = means[1];
+    result.mean_rotation = means[2];
     return result;
   }
 

@@ -27,15 +27,17 @@ namespace abut::shim
   double smallest_body(const solve::NearNullSpace &space,
                        MPI_Comm communicator);
 
-  /** Strains of a displacement. */
+  /** The parts of a displacement gradient, at points of quadrature. Means are
+   * over the cells of the material id with the largest one. */
   struct Strains
   {
-    double largest = 0.; ///< magnitude of a principal strain, anywhere
-    /** Mean of that magnitude over the cells of a material id, the largest. */
+    double largest = 0.; ///< magnitude of a principal strain
     double mean = 0.;
+    double largest_rotation = 0.; ///< by the skew part, radian
+    double mean_rotation = 0.;
   };
 
-  /** Small strains at points of quadrature of the first dim components.
+  /** Small strains and rotations of the first dim components.
    * One pass over the cells. @p u is owned.
    * @param axisymmetric the hoop strain u_x / x counts, too
    * Collective. */

@@ -7,6 +7,7 @@
  */
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut::shim
 {
@@ -26,6 +27,19 @@ namespace abut::shim
   /** Differences of a displacement from its constraints, by the largest
    * displacement: what iterative solvers leave is less. */
   inline constexpr double visible_violation = 1e-3, useless_violation = 0.1;
+
+  /** Error of small-strain theory for a rotation by an angle, radian: the
+   * stretch of u = angle x X. It is judged as a strain. */
+  inline double rotation_stretch(const double angle)
+  {
+    return std::hypot(1., angle) - 1.;
+  }
+
+  /** The angle with that stretch, radian. */
+  inline double rotation_with(const double stretch)
+  {
+    return std::sqrt(stretch * (2. + stretch));
+  }
 
   /** Forces out of balance that are worth a word. */
   inline constexpr double visible_imbalance = 1e-2;

@@ -466,6 +466,42 @@ for slope in (0.06, 0.6, 1.5):
     p.expect(abs(summary["body_1_rotated"] + expected) < 0.025,
              f"slope {slope}: rotated by {summary['body_1_rotated']}")
 
+# Small strain stretches a body that rotates by r by sqrt(1 + r^2) - 1:
+# a square that spins without forces, u = r x X, and a slender cantilever
+# under a force at its end, k = P L^2 / EI, where the slope is k/2 at the end and
+# k/3 in the mean.
+def rotates(scene, setting, largest, mean):
+    stretch = [(1 + angle**2)**0.5 - 1 for angle in (largest, mean)]
+    told = stretch[0] > 0.05
+    summary = expect(run(scene, *setting), 3 if stretch[0] >= 0.5 or stretch[1] >= 1 / 3
+                     else 0, *(("ABUT-F35", "Rotations", "material of finite strain")
+                               if told else ()),
+                     without=() if told else ("ABUT-F35",))
+    seen = {key: summary["examination"][key]["value"]
+            for key in ("largest_rotation", "mean_rotation")}
+    p.expect(seen["largest_rotation"] == summary["largest_rotation"], str(seen))
+    return [seen[key] / value - 1
+            for key, value in (("largest_rotation", largest), ("mean_rotation", mean))]
+
+
+spin = p.write("spin.prm", "set Scene = solid\nset Dimension = 2\n" + section(
+    "Body 1", "Young modulus = 1000", "Density = 1", "Initial velocity = -y, x",
+    section("Mesh", "Generator = hyper_cube", "Arguments = -1 : 1 : true"))
+    + section("Time stepping", "Scheme = trapezoid"))
+for angle in (0.3, 0.34, 0.86, 0.9, 1.5):
+    errors = rotates(spin, (f"Time stepping/Step size={angle / 2}",
+                            f"Time stepping/End time={angle}"), angle, angle)
+    p.expect(max(map(abs, errors)) < 1e-9, f"spin by {angle}: {errors}")
+expect(run(spin, "Time stepping/Step size=0.05", "Time stepping/End time=0.5",
+           "Body 1/Material=neo-hooke"), 0, without=("ABUT-F35",))
+slender = p.write("slender.prm", "set Scene = solid\nset Dimension = 2\n"
+                  + section("Solid", "Degree = 2")
+                  + block(1, "50, 1 : 0, 0 : 10, 0.1 : true", "0: 0, 0",
+                          more=("Young modulus = 1.2e6", "Poisson ratio = 0")))
+for k in (0.6, 0.68, 2.2, 3):  # EI = 100
+    errors = rotates(slender, (f"Body 1/Traction=1: 0, {-10 * k}",), k / 2, k / 3)
+    p.expect(max(map(abs, errors)) < 0.01, f"slender, {k}: {errors}")
+
 # A motion that nothing can hold is found before anything is solved, and told
 # once.
 floating = p.source / "prm/failures/floating-sideways.prm"

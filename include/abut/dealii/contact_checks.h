@@ -69,7 +69,7 @@ namespace abut
      * penetrations(), once per load step; distances of obstacles are evaluated
      * at points of the facets near them, of a membrane in all its cells. Throws
      * ObstacleError for formulas without a value there. Where nothing can touch
-     * it only looks at strains. */
+     * it only looks at strains and rotations. */
     virtual ContactExamination
     examine(const la::VectorView &displacement,
             const la::VectorView &residual = {},

@@ -70,6 +70,10 @@ namespace abut
     /** Mean of that magnitude over the cells of the material id where it is
      * largest. */
     double mean_strain = 0.;
+    /** The same of rotations, radian: the skew part of the displacement
+     * gradient. Small strain stretches what rotates by r by (1 + r^2)^(1/2)
+     * - 1. */
+    double rotation = 0., mean_rotation = 0.;
     /** How far bodies are deformed at the most, length: what depths are
      * compared with. */
     double deformation = 0.;

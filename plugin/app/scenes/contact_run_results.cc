@@ -14,35 +14,6 @@
 
 namespace abut::app
 {
-  namespace
-  {
-    /** Bodies without supports whose strains are linear: a rotation by r
-     * stretches them by 1 - cos r. */
-    void judge_rotation(const BodyMotion &motion,
-                        std::vector<ContactFinding> &findings)
-    {
-      const double turned = motion.rotation.norm();
-      if (turned <= shim::visible_rotation)
-        return;
-      const double stretch = 1. - std::cos(turned);
-      ContactFinding finding(
-          coded(ABUT_FAILURE_LARGE_STRAIN,
-                motion.text
-                    + ". Strains are linear in the displacement, which "
-                      "stretches a body that rotates so far by "
-                    + percent(stretch)
-                    + ", and contact has moved away from where it was. Apply "
-                      "loads without a moment about the contact, support the "
-                      "rotation, or use a material of finite strain.",
-                {{"rotation", turned},
-                 {"warning limit", shim::visible_rotation},
-                 {"stretch", stretch}}),
-          false);
-      finding.body = static_cast<int>(motion.body);
-      findings.push_back(finding);
-    }
-  } // namespace
-
   template <int dim> double ContactRun<dim>::counted_seconds() const
   {
     return report.times.seconds("assembly") + report.times.seconds("transfer")
@@ -200,9 +171,6 @@ namespace abut::app
         finding.is_error = true;
       }
     }
-    if (!model.allows_large_strain())
-      for (const BodyMotion &motion : examination.motions)
-        judge_rotation(motion, findings);
     // Points that close late are a matter of all load steps.
     findings.erase(
         std::remove_if(findings.begin(), findings.end(),
@@ -227,8 +195,18 @@ namespace abut::app
       report.examined("mean_strain", examination.mean_strain, no_limit,
                       allows ? no_limit : shim::useless_mean_strain,
                       ABUT_FAILURE_LARGE_STRAIN);
+      using shim::rotation_with;
+      report.examined("largest_rotation", examination.rotation,
+                      rotation_with(shim::visible_strain),
+                      allows ? no_limit : rotation_with(shim::useless_strain),
+                      ABUT_FAILURE_LARGE_STRAIN);
+      report.examined("mean_rotation", examination.mean_rotation, no_limit,
+                      allows ? no_limit
+                             : rotation_with(shim::useless_mean_strain),
+                      ABUT_FAILURE_LARGE_STRAIN);
     }
     report.set("largest_strain", examination.strain);
+    report.set("largest_rotation", examination.rotation);
     report.set("deformation", examination.deformation);
     report.set("missed_depth", examination.missed_depth);
     if (const std::optional<ContactFinding> found = examine_works())

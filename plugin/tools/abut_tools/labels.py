@@ -110,6 +110,8 @@ LABELS = {
     "work_error": ("works that contradict the energy", "", ""),
     "largest_strain": ("largest strain", "", ""),
     "mean_strain": ("mean strain of a body", "", ""),
+    "largest_rotation": ("largest rotation", "", "radian"),
+    "mean_rotation": ("mean rotation of a body", "", "radian"),
     "condition": ("condition number of the preconditioned matrix", "", ""),
     "negative_curvature": ("curvature of the energy, negative where unstable",
                            "", ""),
