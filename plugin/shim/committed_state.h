@@ -7,6 +7,8 @@
 
 #include <abut/dealii/linear_algebra.h>
 
+#include <optional>
+
 namespace abut::shim
 {
   /** The state of the last commit() that slips and updated points refer to, and
@@ -63,8 +65,26 @@ namespace abut::shim
       obstacles.set_slide(slide_poses_);
     }
 
+    /** [pairs] nonzero for those that pressed at the last commit(), whose slips
+     * begin there whatever iterates do; no value: not found since. */
+    const std::optional<std::vector<std::uint8_t>> &pressed() const
+    {
+      return pressed_;
+    }
+
+    void set_pressed(std::vector<std::uint8_t> pressed)
+    {
+      pressed_ = std::move(pressed);
+    }
+
+    /** Another state has been committed or loaded. */
+    void forget_pressed()
+    {
+      pressed_.reset();
+    }
+
     /** Record what bodies move before pairs touch, which is no slip: [pairs]
-     * nonzero for those that are apart. */
+     * nonzero for those that are apart and have not pressed(). */
     void add_approach(const std::vector<solve::RigidMotion> &motions,
                       const std::vector<std::uint8_t> &is_apart);
 
@@ -124,6 +144,7 @@ namespace abut::shim
     std::vector<std::vector<solve::RigidMotion>> approach_;
     la::Vector slide_; ///< increment that is slip before it happens; empty: 0
     std::vector<RigidPose<dim>> slide_poses_; ///< likewise, of obstacles
+    std::optional<std::vector<std::uint8_t>> pressed_; ///< see pressed()
   };
 } // namespace abut::shim
 

@@ -222,10 +222,10 @@ namespace abut
     i.surface_search.has_new_gaps = false;
     i.rows.are_found = false;
     i.raises.clear();
-    i.committed.check_approach(displacement, [&](const auto &motions)
-                               { return i.displacement_of(motions); });
+    i.check_approach(displacement);
     i.find_rows_in_reach(displacement);
     i.rows.are_found = true;
+    i.find_pressed();
     i.check_committed();
     i.start.set_state({});
     i.start.set_restarted(false);

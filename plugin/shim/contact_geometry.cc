@@ -99,6 +99,8 @@ namespace abut::shim
     start.set_restarted(start.is_restarted() || is_started);
     find_points(displacement);
     set_up_rows();
+    // An iterate may have moved bodies far, and the next one back.
+    check_approach(displacement);
     find_slip_reference();
     start.go_on(start_rows(), before);
   }

@@ -200,6 +200,8 @@ namespace abut::shim
       {
         result.group = i.surfaces->points().row_pairs();
         result.n_groups = i.input.pairs.size();
+        if (i.committed.pressed())
+          result.pressed = *i.committed.pressed();
       }
       result.approach = [&i](const std::vector<solve::RigidMotion> &motions,
                              const std::vector<std::uint8_t> &is_apart)
@@ -575,6 +577,25 @@ namespace abut::shim
                 dealii::Tensor<1, 3>(space.point[i]))[space.component[i]];
     }
     return result;
+  }
+
+  template <int dim> void ContactProblem<dim>::find_pressed()
+  {
+    if (!rows.has_friction
+        || (committed.pressed()
+            && committed.pressed()->size() == input.pairs.size()))
+      return;
+    std::vector<unsigned int> pressed(input.pairs.size(), 0);
+    // Interior methods press everywhere.
+    if (!abut_law_is_interior(input.method.options.law))
+    {
+      const std::vector<int> pair = surfaces->points().row_pairs();
+      for (int row = 0; row < rows.coefficients.n_rows(); ++row)
+        if (!rows.coefficients.is_tangent(row) && start.pressure(row) > 0.)
+          pressed[pair[row]] = 1;
+    }
+    MPI::max(pressed, communicator, pressed);
+    committed.set_pressed({pressed.begin(), pressed.end()});
   }
 
   template <int dim>

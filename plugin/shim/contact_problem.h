@@ -190,10 +190,20 @@ namespace abut::shim
     void compute_gap(const la::Vector &displacement);
     /** Find the reference of slips, with the present points. Collective. */
     void find_slip_reference();
+    /** Find which pairs pressed at the last commit(), by the start values of
+     * the first detect() since. Collective. */
+    void find_pressed();
     /** Note what bodies move before pairs touch, which is no slip. Collective.
      */
     void add_approach(const std::vector<solve::RigidMotion> &motions,
                       const std::vector<std::uint8_t> &is_apart);
+    /** Forget such motions where @p displacement has not gone that way.
+     * Collective. */
+    void check_approach(const la::Vector &displacement)
+    {
+      committed.check_approach(displacement, [this](const auto &motions)
+                               { return displacement_of(motions); });
+    }
     /** A motion on the present mesh. */
     la::Vector
     displacement_of(const std::vector<solve::RigidMotion> &motions) const;

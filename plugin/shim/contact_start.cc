@@ -104,6 +104,7 @@ namespace abut
         || std::any_of(i.input.pairs.begin(), i.input.pairs.end(),
                        [](const ContactPair<dim> &pair)
                        { return pair.friction != nullptr; });
+    i.committed.forget_pressed();
     i.committed.record(is_wanted ? displacement : la::Vector(), is_wanted,
                        i.input.pairs);
     if (!is_wanted)

@@ -139,6 +139,7 @@ namespace abut::shim
                            i.surfaces->load_sides(stream);
                        });
         i.surface_search.elements = std::move(elements);
+        i.committed.forget_pressed();
         // Displacements are the host's to keep: that of the commit() must come
         // from there, or slips would be measured from the reference
         // configuration.

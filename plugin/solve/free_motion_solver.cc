@@ -488,7 +488,10 @@ namespace abut::solve
     move(motion, distance, request, increment);
     if (!iteration_.approach)
       return;
-    const std::vector<std::uint8_t> apart = groups_apart(request);
+    std::vector<std::uint8_t> apart = groups_apart(request);
+    for (std::size_t g = 0; g < iteration_.pressed.size(); ++g)
+      if (iteration_.pressed[g] != 0)
+        apart[g] = 0;
     for (int i = 0; i < rows_->n_rows(); ++i)
       if (rows_->is_tangent(i) && apart[iteration_.group[i]] != 0)
         request.gap_change[i] = before[i];

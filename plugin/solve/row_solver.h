@@ -26,6 +26,9 @@ namespace abut::solve
     /** [rows] pair of each row, below n_groups; empty: not known. */
     std::vector<int> group;
     std::size_t n_groups = 1;
+    /** [n_groups] nonzero: slips of the group begin with the step, not with its
+     * first touch; empty: none. */
+    std::vector<std::uint8_t> pressed;
     /** Displacement at its start, which must live as long; null: 0. */
     const la::Vector *start = nullptr;
     /** Sum of the magnitudes of the loads at nodes, force >= 0. */
@@ -37,8 +40,9 @@ namespace abut::solve
      * iteration may be resisted in the next one. */
     bool turns = false;
     /** Called where bodies move as rigid bodies until they touch: the [bodies]
-     * motions, and the [n_groups] groups without a closed row before, whose
-     * slips are measured from there. The same on all ranks. */
+     * motions, and the [n_groups] groups without a closed row before that
+     * are not pressed, whose slips are measured from there. The same on all
+     * ranks. */
     std::function<void(const std::vector<RigidMotion> &motions,
                        const std::vector<std::uint8_t> &is_apart)>
         approach;

@@ -160,6 +160,39 @@ if not p.short:
     check_slide(22, STANDARD)
 p.close(far[-1], fine[-1], 1e-3, "friction in steps of 3.3 facets")
 
+# A belt around a quarter of a drum is drawn and let go again, so that it slips
+# back: the support has the force at the end times e^(mu pi/2) (Euler and
+# Eytelwein), whatever iterates have done, some of which lift the belt off.
+def check_belt(tension, *words):
+    def mesh(inner, outer, n):
+        return section("Mesh", "Generator = quarter_hyper_shell",
+                       f"Arguments = 0, 0 : {inner} : {outer} : {n} : true")
+
+    scene = p.write("belt.prm", "\n".join([
+        "set Scene = solid", "set Dimension = 2",
+        section("Solid", "Bodies = 2", "Pairs = 1", "Plane = stress",
+                "Degree = 2"),
+        section(
+            "Body 1", mesh(10, 10.05, 40), "Young modulus = 1e5",
+            "Poisson ratio = 0", "Support = 2: 0, free",
+            f"Traction = 3: 0, -100*min(1, t) "
+            f"+ {100 - 20 * tension}*max(0, t - 1)"),
+        section(
+            "Body 2", mesh(9, 10, 32), "Young modulus = 1e7",
+            "Poisson ratio = 0.3", "Support = 0: 0, 0"),
+        section("Pair 1", "Secondary = 1: 0", "Primary = 2: 1"),
+        section("Time stepping", "Number of steps = 8", "End time = 2"),
+        section("Refinement", "Level = 0")]) + "\n")
+    summary = solved(scene, FRICTION, "Method/Contact geometry=current",
+                     "Output/Fields=false", *words)
+    p.close(-summary["reaction_1"][0], tension * math.exp(MU * math.pi / 2),
+            1e-2, f"belt let go to {tension} {words}")
+
+
+check_belt(1.5)
+if not p.short:
+    check_belt(1.2)
+
 # On two ranks as on one.
 words = [FRICTION, "Time stepping/End time=1.4", "Time stepping/Number of steps=7"]
 one = solved("slide.prm", *words)
