@@ -48,7 +48,7 @@ namespace abut::shim
     std::unordered_map<Index, std::int32_t> place;
     std::vector<std::int32_t> connectivity;
     std::vector<std::uint8_t> kinds;
-    std::vector<double> position;
+    std::vector<double> position, present;
     for (const std::int64_t number : part.number)
     {
       const FacetRecord &record = facets_.at(number);
@@ -59,13 +59,15 @@ namespace abut::shim
         connectivity.push_back(entry.first->second);
         if (!entry.second)
           continue;
-        dealii::Point<dim> point = nodes_.at(node).node.point;
-        if (displaced)
-          if (const auto moved = displaced_.find(node);
-              moved != displaced_.end())
-            point += moved->second;
+        const dealii::Point<dim> point = nodes_.at(node).node.point;
+        dealii::Point<dim> moved(point);
+        if (const auto way = displaced_.find(node); way != displaced_.end())
+          moved += way->second;
         for (unsigned int d = 0; d < dim; ++d)
+        {
           position.push_back(point[d]);
+          present.push_back(moved[d]);
+        }
       }
     }
     abut_surface_data data = abut_surface_data_defaults();
@@ -77,8 +79,12 @@ namespace abut::shim
     data.position = position.data();
     data.facet_id = part.number.data();
     data.check_orientation = false;
-    if (!part.number.empty())
-      part.surface = create_surface(context, data);
+    if (part.number.empty())
+      return part;
+    // Facets are checked as the mesh has them: iterates may fold some.
+    part.surface = create_surface(context, data);
+    if (displaced)
+      check(context, abut_surface_update(part.surface.get(), present.data()));
     return part;
   }
 
