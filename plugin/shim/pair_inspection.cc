@@ -45,7 +45,7 @@ namespace abut::shim
       return out.str();
     }
 
-    /** Put an obstacle in a place, of which the host is not told. */
+    /** Put an obstacle in a place. */
     template <int dim>
     void put(const abut_context *context, const RigidObstacle<dim> &obstacle,
              const RigidPose<dim> &pose)
@@ -201,7 +201,7 @@ namespace abut::shim
       owned.push_back(points_.set().is_owned(node));
     const RigidObstacle<dim> &obstacle = *pair.data.obstacle;
     const RigidPose<dim> now = obstacle.pose();
-    // The first step of what moves may be too long.
+    // The first step may be too long.
     const bool moves = pair.data.may_be_apart && pair.data.first_pose;
     if (moves)
       put(host_.context, obstacle, *pair.data.first_pose);

@@ -39,9 +39,9 @@ namespace abut::shim
                              const PairCheck &found) const;
     /** Whether nothing has moved yet. */
     bool is_at_start() const;
-    /** What both normals say about the sides of surface and obstacle; empty:
-     * nothing. Throws where most of the surface is in the obstacle or in front
-     * of it. Collective. */
+    /** Text about normals of surface and obstacle that point the same way, or
+     * an empty one. Throws where the obstacle is behind most of the surface.
+     * Collective. */
     std::string wrong_side(SurfacePair<dim> &pair) const;
     /** Whether supports prescribe the displacement along the normal of all
      * nodes of the secondary. Collective. */
