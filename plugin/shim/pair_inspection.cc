@@ -187,9 +187,15 @@ namespace abut::shim
                        host_.search, reach, host_.communicator);
   }
 
-  template <int dim> bool PairInspection<dim>::is_at_start() const
+  template <int dim>
+  bool PairInspection<dim>::is_at_start(const std::size_t number) const
   {
-    return is_first_ && points_.set().obstacles().committed().empty();
+    // Motions commit what they begin with.
+    const std::vector<double> &times =
+        points_.set().obstacles().committed_times();
+    return is_first_
+           && (times.empty()
+               || (pairs_[number].data.first_pose && times[number] == 0.));
   }
 
   template <int dim>
@@ -333,7 +339,7 @@ namespace abut::shim
     const bool may_come_near = pair.has_current_points() && !pair.data.obstacle;
     if (result.n_rows == 0 && (pair.data.may_be_apart || may_come_near))
     {
-      if (pair.data.obstacle && is_at_start())
+      if (pair.data.obstacle && is_at_start(number))
         wrong_side(pair);
       result.warnings.insert(result.warnings.end(), pair.refused.begin(),
                              pair.refused.end());

@@ -38,7 +38,7 @@ namespace abut::shim
     Message overlap_at_start(SurfacePair<dim> &pair,
                              const PairCheck &found) const;
     /** Whether nothing has moved yet. */
-    bool is_at_start() const;
+    bool is_at_start(std::size_t number) const;
     /** Text about normals of surface and obstacle that point the same way, or
      * an empty one. Throws where the obstacle is behind most of the surface.
      * Collective. */
