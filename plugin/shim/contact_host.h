@@ -147,7 +147,7 @@ namespace abut::shim
     std::vector<VertexOrigin> vertex_origins_, next_origins_;
     dealii::types::global_dof_index n_unknowns_ = 0; ///< in reinit()
     std::vector<dealii::Point<dim>> vertices_;       ///< in reinit()
-    /** Those of cells at the boundary, in reinit(). */
+    /** Numbers of unknowns of cells at the boundary, in reinit(). */
     std::vector<dealii::types::global_dof_index> boundary_unknowns_;
     std::optional<solve::Stiffness> reference_; ///< none: the present one
     /** Copies of matrices of other types: the present one, and reference. */
