@@ -4,6 +4,8 @@ too far in a step, supports that leave a node one way only, and bodies of
 several parts that hold each other. What they end with is known from formulas
 or is an error that says what to do."""
 
+import math
+
 from block_scene import section
 from program import Program, set_words
 
@@ -130,6 +132,38 @@ p.expect(result.returncode == 3 and "ABUT-F12" in result.stderr
          and "body 1 can rotate about" in result.stderr
          and "check that the tangent" not in result.stderr,
          f"tips: {result.stderr}")
+
+# The load along an incline is that of both blocks on it, though the one on top is
+# only held by friction, too: sin 15 and mu cos 15 of their weight.
+weight = 10 * (2 * 8 + 5 * 2)
+slope = math.radians(15)
+stack = p.write("stack.prm", base + section(
+    "Solid", "Bodies = 2", "Pairs = 2", "Obstacles = 1",
+    f"Gravity = {10 * math.sin(slope)!r}, {-10 * math.cos(slope)!r}")
+    + "".join(section(f"Body {number}", section(
+        "Mesh", "Generator = subdivided_hyper_rectangle",
+        f"Arguments = {arguments} : true"), "Young modulus = 1e6",
+        "Poisson ratio = 0.3", f"Density = {density}")
+        for number, density, arguments in (
+            (1, 2, "8, 4 : 0, 0 : 4, 2"), (2, 5, "5, 3 : 1, 2 : 3, 3")))
+    + section("Obstacle 1", "Kind = plane")
+    + section("Pair 1", "Secondary = 1: 2", "Obstacle = 1")
+    + section("Pair 2", "Secondary = 2: 2", "Primary = 1: 3", "Friction = 0.4")
+    + section("Refinement", "Level = 0"))
+# By the last iterate, all slips, or the solver or the active sets find nothing.
+n_loads = 0
+for mu in (0.02, 0.05, 0.1, 0.2):
+    result = run(stack, f"Pair 1/Friction={mu}")
+    p.expect(result.returncode == 3, f"stack, mu = {mu}: {result.stderr}")
+    for finding in p.summary()["findings"].values():
+        if "load" not in finding["numbers"]:
+            continue
+        n_loads += 1
+        p.close(finding["numbers"]["load"], weight * math.sin(slope), 1e-6,
+                f"load of the stack along the incline, mu = {mu}")
+        p.close(finding["numbers"]["friction"], mu * weight * math.cos(slope),
+                0.05, f"friction of the stack at most, mu = {mu}")
+p.expect(n_loads > 0, "loads of the stack along the incline")
 
 # Bodies are called by their number and name, all that are free.
 named = ("Body 1/Name=sled", "Body 1/Prescribed displacement=")

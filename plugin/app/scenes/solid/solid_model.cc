@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace abut::app
@@ -403,16 +404,75 @@ namespace abut::app
     return "";
   }
 
+  namespace
+  {
+    /** Part of a direction that supports must leave free. */
+    constexpr double unstopped = 0.99;
+
+    template <int dim>
+    dealii::Tensor<1, dim> free_part(const FreeBody<dim> &body,
+                                     const dealii::Tensor<1, dim> &direction)
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = direction[d] * body.free[d];
+      return result;
+    }
+
+    /** The load on pair @p p by the body @p k and all that rest on it and are
+     * free along this direction: forces between them need not be in balance.
+     * @p loads of those bodies that may be among them; others push by the
+     * forces of their pairs. */
+    template <int dim>
+    dealii::Tensor<1, dim> load_on_pair(
+        const std::size_t p, const unsigned int k,
+        const dealii::Tensor<1, dim> &along,
+        const std::vector<FreeBody<dim>> &bodies,
+        const std::vector<std::optional<dealii::Tensor<1, dim>>> &loads,
+        const std::vector<PairResult<dim>> &pairs)
+    {
+      dealii::Tensor<1, dim> force;
+      std::vector<std::size_t> inside = {k};
+      for (std::size_t n = 0; n < inside.size(); ++n)
+      {
+        const std::vector<double> &sides = bodies[inside[n]].sides;
+        force += *loads[inside[n]];
+        for (std::size_t q = 0; q < pairs.size(); ++q)
+        {
+          if (q == p || sides[q] == 0.)
+            continue;
+          std::size_t other = 0;
+          while (other < loads.size()
+                 && !(loads[other] && bodies[other].sides[q] == -sides[q]
+                      && (other == k || bodies[other].sides[p] == 0.)
+                      && free_part(bodies[other], along).norm() >= unstopped))
+            ++other;
+          if (std::find(inside.begin(), inside.end(), other) != inside.end())
+            continue;
+          if (other < loads.size())
+            inside.push_back(other);
+          else
+            force += sides[q] * pairs[q].secondary_force;
+        }
+      }
+      return force;
+    }
+  } // namespace
+
   /* All points of the pair slip one way, which nothing else stops: then the
    * loads and the other contacts of the body balance the friction. */
   template <int dim> Message SolidModel<dim>::sliding() const
   {
-    constexpr double one_way = 0.9, unstopped = 0.99, reached = 0.99;
+    constexpr double one_way = 0.9, reached = 0.99;
     if (motion || !pairs->has_friction())
       return "";
     const auto results = run.contact.results().pairs();
     const auto loads = load_resultants(elasticity, bodies.size());
     const std::vector<FreeBody<dim>> free = free_bodies();
+    std::vector<std::optional<dealii::Tensor<1, dim>>> load_of(parts.size());
+    for (unsigned int k = 0; k < parts.size(); ++k)
+      if (parts[k].n_parts == 1)
+        load_of[k] = loads[parts[k].body].force;
     for (unsigned int k = 0; k < parts.size(); ++k)
       for (std::size_t p = 0; p < results.size(); ++p)
       {
@@ -425,13 +485,10 @@ namespace abut::app
           continue;
         const dealii::Tensor<1, dim> against =
             side / limit * pair.secondary_friction;
-        dealii::Tensor<1, dim> along, force = loads[parts[k].body].force;
-        for (unsigned int d = 0; d < dim; ++d)
-          along[d] = -against[d] * free[k].free[d];
-        for (std::size_t q = 0; q < results.size(); ++q)
-          if (q != p && free[k].sides[q] != 0.)
-            force += free[k].sides[q] * results[q].secondary_force;
-        const double load = force * along;
+        const dealii::Tensor<1, dim> along = free_part(free[k], -against);
+        const auto force = load_on_pair(p, k, along, free, load_of, results);
+        // Of an iterate out of balance the slip may be the other way.
+        const double load = std::abs(force * along);
         if (along.norm() < unstopped || !(load > reached * limit))
           continue;
         return coded(
