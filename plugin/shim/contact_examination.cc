@@ -163,7 +163,7 @@ namespace abut::shim
       std::string alone;
       int body = -1;
       for (const BodyMotion &motion : seen.motions)
-        if (motion.rotation.norm() > visible_rotation)
+        if (std::min(motion.rotation.norm(), seen.rotation) > visible_rotation)
         {
           alone += motion.text + ". ";
           body = static_cast<int>(motion.body);

@@ -70,10 +70,11 @@ namespace abut
     /** Mean of that magnitude over the cells of the material id where it is
      * largest. */
     double mean_strain = 0.;
-    /** The same of rotations, radian: the skew part of the displacement
-     * gradient. Small strain stretches what rotates by r by (1 + r^2)^(1/2)
-     * - 1. */
-    double rotation = 0., mean_rotation = 0.;
+    /** Largest rotation, radian: of the skew part of the displacement gradient.
+     * Small strain stretches what rotates by r by (1 + r^2)^(1/2) - 1. */
+    double rotation = 0.;
+    /** Its mean, likewise over the cells of a material id. */
+    double mean_rotation = 0.;
     /** How far bodies are deformed at the most, length: what depths are
      * compared with. */
     double deformation = 0.;
